@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What REST needs to know and to do: the running fleet, and its history.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/incident.hpp"
+#include "core/status.hpp"
+
+namespace kidnapwatch::api {
+
+/// Thrown by put_config where the configuration is not the version that the caller saw.
+struct VersionConflict {
+  std::int64_t current = 0;
+};
+
+/// The running service. Every function may be called from any thread and answers from memory.
+class Fleet {
+ public:
+  virtual ~Fleet() = default;
+  /// Ordered by id.
+  [[nodiscard]] virtual std::vector<core::RobotStatus> robots() const = 0;
+  [[nodiscard]] virtual std::optional<core::RobotStatus> robot(const std::string& id) const = 0;
+  [[nodiscard]] virtual core::ServiceStatus status() const = 0;
+  [[nodiscard]] virtual core::ConfigVersion config() const = 0;
+  /// Takes effect with every robot's next scan. Durable once it returned. Throws BadInput for values
+  /// out of range, VersionConflict if `seen_version` is given and not the current one.
+  virtual core::ConfigVersion put_config(const core::DetectionConfig& config,
+                                         std::optional<std::int64_t> seen_version,
+                                         const std::string& author) = 0;
+};
+
+struct TimeRange {
+  core::Stamp from = core::Stamp::min();
+  core::Stamp to = core::Stamp::max();  ///< exclusive
+};
+
+/// Which incidents, newest first.
+struct IncidentQuery {
+  std::optional<std::string> robot;
+  std::optional<core::IncidentState> state;
+  std::optional<core::IncidentKind> kind;
+  TimeRange opened_at;
+  std::optional<std::string> before_id;  ///< go on after the page that ended with this incident
+  std::size_t limit = 100;
+};
+
+/// What was stored. Every function may be called from any thread; each is one consistent read.
+class History {
+ public:
+  virtual ~History() = default;
+  /// By stamp, oldest first, at most `limit`.
+  [[nodiscard]] virtual std::vector<core::Score> scores(const std::string& robot, TimeRange stamps,
+                                                        std::size_t limit) const = 0;
+  [[nodiscard]] virtual std::vector<core::Incident> incidents(const IncidentQuery& query) const = 0;
+  [[nodiscard]] virtual std::optional<core::Incident> incident(const std::string& id) const = 0;
+  [[nodiscard]] virtual std::optional<core::Evidence> evidence(const std::string& incident_id) const = 0;
+};
+
+}  // namespace kidnapwatch::api

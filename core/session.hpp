@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// One robot: its scans in, verdicts out. The online half of Algorithm 3, with confirmation.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/calibration.hpp"
+#include "core/dissimilarity.hpp"
+#include "core/outcome.hpp"
+#include "core/robot.hpp"
+#include "core/scan.hpp"
+
+namespace kidnapwatch::core {
+
+/// How kidnappings are detected. All of it can be changed while a robot drives.
+struct DetectionConfig {
+  DissimilarityConfig dissimilarity;
+  CalibrationConfig calibration;
+  std::optional<double> threshold;  ///< overrides the calibrated one; unit of the raw score
+  double stale_after_s = 5.0;       ///< without a scan, by time of arrival
+  double resolve_after_s = 30.0;    ///< of scans that fit together, by stamp; then an incident ends
+  std::size_t resync_scans = 20;    ///< old stamps in a row that mean the robot's clock was set back
+
+  friend bool operator==(const DetectionConfig&, const DetectionConfig&) = default;
+};
+
+/// Throws BadInput naming the field and its range unless every value is usable.
+void check(const DetectionConfig& config);
+
+/// How unlike a robot's scan was to the one before, and what was concluded.
+struct Score {
+  Stamp stamp;      ///< of the scan
+  Stamp reference;  ///< of the last good scan before it, with which it was compared
+  Dissimilarity dissimilarity;
+  std::optional<double> threshold;  ///< nothing while warming up
+  RobotState state = RobotState::unknown;  ///< after this scan
+
+  friend bool operator==(const Score&, const Score&) = default;
+};
+
+enum class EpisodeChange {
+  opened,    ///< a kidnapping was confirmed
+  updated,   ///< moved again while the incident is open
+  resolved,  ///< by rule: the scans have fit together for resolve_after_s
+};
+
+/// The two scans that did not fit: the last good one before, and the first one after.
+struct ScanPair {
+  Scan before;
+  Scan after;
+};
+
+struct Verdict {
+  Score score;
+  std::optional<EpisodeChange> change;
+};
+
+struct Observation {
+  Outcome outcome = Outcome::first;
+  std::optional<Verdict> verdict;  ///< exactly if the outcome is `scored`
+};
+
+class Session {
+ public:
+  /// `config` passed check().
+  explicit Session(const DetectionConfig& config);
+
+  /// Takes up where an earlier run stopped: its natural scores, oldest first, and whether an incident
+  /// was open.
+  void resume(std::span<const double> natural_scores, bool incident_open);
+
+  /// Takes the robot's next scan, which passed check(), arriving at `arrival`. Repeated, older and
+  /// not comparable scans change nothing but the time of arrival. After resync_scans older scans in a
+  /// row the robot's clock is believed to have been set back, and the last of them becomes the first.
+  Observation observe(Scan scan, Stamp arrival);
+
+  /// Ends an open incident from outside: the robot knows where it is again. False if none is open.
+  bool resolve();
+
+  /// From now on; what was learned is kept unless the score itself changes.
+  void configure(const DetectionConfig& config);
+
+  /// The state at time of arrival `now`: stale if no scan arrived for stale_after_s.
+  [[nodiscard]] RobotState state(Stamp now) const;
+
+  /// The configured threshold, else the calibrated one, else nothing.
+  [[nodiscard]] std::optional<double> threshold() const;
+
+  /// Natural pairs that the calibrated threshold rests on, of warmup_pairs needed.
+  [[nodiscard]] std::size_t calibration_pairs() const { return calibration_.pairs(); }
+
+  /// The scans of the latest kidnapping; nothing before the first one.
+  [[nodiscard]] const std::optional<ScanPair>& evidence() const { return evidence_; }
+
+ private:
+  struct Suspicion {
+    Scan before;   // the last good scan before the jump
+    double score;  // of the jump
+  };
+
+  [[nodiscard]] std::optional<Outcome> refusal(const Scan& scan);
+  [[nodiscard]] Outcome out_of_order(Stamp stamp);
+  Verdict judge(const Scan& scan);
+  [[nodiscard]] bool confirmed(const Scan& scan) const;
+  std::optional<EpisodeChange> advance(const Scan& scan, double score);
+  std::optional<EpisodeChange> rest(Stamp stamp, double score);
+  EpisodeChange alarm(const Scan& after);
+
+  DetectionConfig config_;
+  Calibration calibration_;
+  std::optional<Scan> reference_;
+  std::optional<Suspicion> suspicion_;
+  std::optional<ScanPair> evidence_;
+  std::optional<Stamp> arrival_;
+  bool incident_open_ = false;
+  std::optional<Stamp> quiet_since_;  // in an open incident: since when the scans fit together
+  std::size_t old_stamps_ = 0;        // in a row
+  Stamp oldest_run_{};                // the last of them
+};
+
+}  // namespace kidnapwatch::core

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A TurtleBot3-like robot that tours a world, and is kidnapped on request. Deterministic by seed.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "core/recording.hpp"
+#include "core/sim/world.hpp"
+
+namespace kidnapwatch::core::sim {
+
+/// The robot's lidar and wheels; the defaults are a TurtleBot3 with an LDS-01.
+struct RobotModel {
+  std::size_t beams = 360;
+  double range_min_m = 0.12;
+  double range_max_m = 3.5;
+  double range_noise_sd_m = 0.01;
+  double speed_mps = 0.22;
+  double turn_rate_radps = 0.8;
+  double odometry_noise = 0.02;  ///< sd of the error of a motion, as a share of it
+};
+
+class Drive {
+ public:
+  /// The robot starts at a point of the tour that `seed` chooses. `world` outlives the drive.
+  Drive(const World& world, const RobotModel& model, std::uint64_t seed, Stamp start);
+
+  /// Moves on for `step_s` (> 0) and scans. Odometry comes from the wheels alone: it does not
+  /// notice a kidnapping.
+  RecordedScan next(double step_s);
+
+  /// Puts the robot to `destination`; it drives on along its tour from the waypoint in sight that is
+  /// nearest.
+  void kidnap(const Pose& destination);
+
+  /// Puts the robot to the free pose of the world that is farthest away; says which.
+  Pose kidnap_far();
+
+  [[nodiscard]] const Pose& true_pose() const noexcept { return T_map_base_; }
+
+ private:
+  void move(double step_s);
+  [[nodiscard]] Scan scan();
+
+  const World& world_;
+  RobotModel model_;
+  std::mt19937_64 random_;
+  Stamp now_;
+  std::size_t waypoint_ = 0;
+  Pose T_map_base_;
+  Pose T_odom_base_;
+};
+
+}  // namespace kidnapwatch::core::sim

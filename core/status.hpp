@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the running service knows of its robots and of itself, as values to look at.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/outcome.hpp"
+#include "core/session.hpp"
+
+namespace kidnapwatch::core {
+
+struct RobotStatus {
+  std::string id;
+  RobotState state = RobotState::unknown;
+  Stamp last_arrival;          ///< of any scan, by the service's clock
+  std::optional<Score> score;  ///< the latest
+  std::optional<double> threshold;
+  std::uint64_t calibration_pairs = 0;
+  std::uint64_t warmup_pairs = 0;  ///< calibration_pairs needed before there is a threshold
+  std::optional<std::string> incident_id;  ///< of the open incident
+  OutcomeCounts counts{};          ///< since the service started
+};
+
+struct ServiceStatus {
+  std::string version;
+  Stamp started;
+  std::uint64_t robots = 0;
+  bool broker_connected = false;
+  bool store_healthy = false;
+  std::uint64_t queued_scans = 0;   ///< waiting in all lanes
+  std::uint64_t queued_writes = 0;  ///< waiting for the store
+  std::uint64_t lost_writes = 0;    ///< refused because the store's queue was full
+  OutcomeCounts counts{};           ///< of all robots and of messages that belong to none
+};
+
+/// A configuration as somebody set it.
+struct ConfigVersion {
+  std::int64_t version = 0;  ///< 0: the service's own start configuration
+  Stamp since;
+  std::string author;
+  DetectionConfig config;
+};
+
+}  // namespace kidnapwatch::core
