@@ -27,8 +27,8 @@ class Fleet {
   [[nodiscard]] virtual std::optional<core::RobotStatus> robot(const std::string& id) const = 0;
   [[nodiscard]] virtual core::ServiceStatus status() const = 0;
   [[nodiscard]] virtual core::ConfigVersion config() const = 0;
-  /// Takes effect with every robot's next scan. Durable once it returned. Throws BadInput for values
-  /// out of range, VersionConflict if `seen_version` is given and not the current one.
+  /// Takes effect with every robot's next scan. Durable once it returned. Throws BadInput for
+  /// values out of range, VersionConflict if `seen_version` is given and not the current one.
   virtual core::ConfigVersion put_config(const core::DetectionConfig& config,
                                          std::optional<std::int64_t> seen_version,
                                          const std::string& author) = 0;
@@ -58,7 +58,8 @@ class History {
                                                         std::size_t limit) const = 0;
   [[nodiscard]] virtual std::vector<core::Incident> incidents(const IncidentQuery& query) const = 0;
   [[nodiscard]] virtual std::optional<core::Incident> incident(const std::string& id) const = 0;
-  [[nodiscard]] virtual std::optional<core::Evidence> evidence(const std::string& incident_id) const = 0;
+  [[nodiscard]] virtual std::optional<core::Evidence> evidence(
+      const std::string& incident_id) const = 0;
 };
 
 }  // namespace kidnapwatch::api

@@ -27,8 +27,8 @@ enum class InvalidPolicy {
 /// The ranges that the policy keeps, in beam order, in metres: the one-dimensional form of a scan.
 [[nodiscard]] std::vector<double> kept_ranges(const Scan& scan, InvalidPolicy policy);
 
-/// Eq. (1): r (cos phi, sin phi) of every beam that the policy keeps, in beam order, in metres and in
-/// the sensor's frame.
+/// Eq. (1): r (cos phi, sin phi) of every beam that the policy keeps, in beam order, in metres and
+/// in the sensor's frame.
 [[nodiscard]] Cloud cloud(const Scan& scan, InvalidPolicy policy);
 
 }  // namespace kidnapwatch::core

@@ -8,8 +8,8 @@
 
 namespace kidnapwatch::core {
 
-/// Cost of the cheapest alignment of `p` with `q`: the sum of the L1 distances of all matched beams,
-/// in the unit of the clouds.
+/// Cost of the cheapest alignment of `p` with `q`: the sum of the L1 distances of all matched
+/// beams, in the unit of the clouds.
 ///
 /// The alignment starts at both first beams, ends at both last beams, never turns back and never
 /// skips a beam: the cost is symmetric, and 0 exactly for clouds that differ only in how long they

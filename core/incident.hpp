@@ -15,7 +15,14 @@ namespace kidnapwatch::core {
 enum class IncidentKind : std::uint8_t { teleport, carry };
 enum class IncidentState : std::uint8_t { open, acknowledged, resolved };
 /// What an alert tells of an incident.
-enum class AlertType : std::uint8_t { opened, updated, acknowledged, unacknowledged, resolved, shelved };
+enum class AlertType : std::uint8_t {
+  opened,
+  updated,
+  acknowledged,
+  unacknowledged,
+  resolved,
+  shelved
+};
 
 [[nodiscard]] std::string_view name(IncidentKind kind);
 [[nodiscard]] std::string_view name(IncidentState state);
@@ -25,18 +32,18 @@ enum class AlertType : std::uint8_t { opened, updated, acknowledged, unacknowled
 [[nodiscard]] IncidentState incident_state(std::string_view text, std::string_view field);
 
 struct Incident {
-  std::string id;     ///< UUIDv7
+  std::string id;  ///< UUIDv7
   std::string robot;
   std::uint32_t seq = 0;  ///< changes so far; 1 when opened
   IncidentKind kind = IncidentKind::teleport;
   IncidentState state = IncidentState::open;
-  Stamp opened_at;                    ///< by the service's clock
-  std::optional<Stamp> resolved_at;   ///< by the service's clock
-  Stamp scan_stamp;      ///< of the scan that confirmed the latest jump
-  Stamp before_stamp;    ///< of the last good scan before the jump
-  Stamp after_stamp;     ///< of the first scan after it
-  std::string detector;  ///< detector_name()
-  double score = 0.0;    ///< of the jump
+  Stamp opened_at;                   ///< by the service's clock
+  std::optional<Stamp> resolved_at;  ///< by the service's clock
+  Stamp scan_stamp;                  ///< of the scan that confirmed the latest jump
+  Stamp before_stamp;                ///< of the last good scan before the jump
+  Stamp after_stamp;                 ///< of the first scan after it
+  std::string detector;              ///< detector_name()
+  double score = 0.0;                ///< of the jump
   double threshold = 0.0;
   std::int64_t config_version = 0;
 

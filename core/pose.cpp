@@ -26,8 +26,6 @@ Pose inverse(const Pose& pose) {
   return {-c * pose.x_m - s * pose.y_m, s * pose.x_m - c * pose.y_m, wrapped(-pose.theta_rad)};
 }
 
-double distance_m(const Pose& a, const Pose& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
+double distance_m(const Pose& a, const Pose& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 }  // namespace kidnapwatch::core

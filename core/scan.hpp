@@ -25,16 +25,16 @@ struct ScanGeometry {
 struct Scan {
   Stamp stamp;
   ScanGeometry geometry;
-  std::vector<float> ranges_m;  ///< in beam order; invalid beams as recorded
+  std::vector<float> ranges_m;   ///< in beam order; invalid beams as recorded
   std::optional<Pose> odometry;  ///< T_odom_base at `stamp`, where the robot told it
 };
 
 /// Most beams that a scan may have.
 inline constexpr std::size_t kMaxBeams = 65536;
 
-/// Throws BadInput naming the field unless the scan can be computed with: 1..kMaxBeams beams; finite
-/// angles, an increment that is not 0 and sweeps at most one turn (and one beam); finite
-/// 0 <= range_min < range_max.
+/// Throws BadInput naming the field unless the scan can be computed with: 1..kMaxBeams beams;
+/// finite angles, an increment that is not 0 and sweeps at most one turn (and one beam); finite 0
+/// <= range_min < range_max.
 void check(const Scan& scan);
 
 /// Whether beam `range_m` hit something in reach: finite and range_min < r < range_max, so that 0,

@@ -21,7 +21,7 @@ struct DetectionConfig {
   std::optional<double> threshold;  ///< overrides the calibrated one; unit of the raw score
   double stale_after_s = 5.0;       ///< without a scan, by time of arrival
   double resolve_after_s = 30.0;    ///< of scans that fit together, by stamp; then an incident ends
-  std::size_t resync_scans = 20;    ///< old stamps in a row that mean the robot's clock was set back
+  std::size_t resync_scans = 20;  ///< old stamps in a row that mean the robot's clock was set back
 
   friend bool operator==(const DetectionConfig&, const DetectionConfig&) = default;
 };
@@ -34,7 +34,7 @@ struct Score {
   Stamp stamp;      ///< of the scan
   Stamp reference;  ///< of the last good scan before it, with which it was compared
   Dissimilarity dissimilarity;
-  std::optional<double> threshold;  ///< nothing while warming up
+  std::optional<double> threshold;         ///< nothing while warming up
   RobotState state = RobotState::unknown;  ///< after this scan
 
   friend bool operator==(const Score&, const Score&) = default;
@@ -46,10 +46,17 @@ enum class EpisodeChange {
   resolved,  ///< by rule: the scans have fit together for resolve_after_s
 };
 
-/// The two scans that did not fit: the last good one before, and the first one after.
+/// The last good scan before a jump, and the first one after it.
 struct ScanPair {
   Scan before;
   Scan after;
+};
+
+/// Two scans that did not fit, and how far above the threshold they were.
+struct Jump {
+  ScanPair scans;
+  double score = 0.0;      ///< Dissimilarity::cost of the pair
+  double threshold = 0.0;  ///< then
 };
 
 struct Verdict {
@@ -62,18 +69,21 @@ struct Observation {
   std::optional<Verdict> verdict;  ///< exactly if the outcome is `scored`
 };
 
+/// A scan above the threshold makes the robot suspect. It is kidnapped if the next good scan, too,
+/// is above the threshold against the scan before the jump: a glitch of one scan is not.
 class Session {
  public:
   /// `config` passed check().
   explicit Session(const DetectionConfig& config);
 
-  /// Takes up where an earlier run stopped: its natural scores, oldest first, and whether an incident
-  /// was open.
+  /// Takes up where an earlier run stopped: its natural scores, oldest first, and whether an
+  /// incident was open.
   void resume(std::span<const double> natural_scores, bool incident_open);
 
   /// Takes the robot's next scan, which passed check(), arriving at `arrival`. Repeated, older and
-  /// not comparable scans change nothing but the time of arrival. After resync_scans older scans in a
-  /// row the robot's clock is believed to have been set back, and the last of them becomes the first.
+  /// not comparable scans change nothing but the time of arrival. After resync_scans older scans in
+  /// a row the robot's clock is believed to have been set back, and the last of them becomes the
+  /// first.
   Observation observe(Scan scan, Stamp arrival);
 
   /// Ends an open incident from outside: the robot knows where it is again. False if none is open.
@@ -91,33 +101,28 @@ class Session {
   /// Natural pairs that the calibrated threshold rests on, of warmup_pairs needed.
   [[nodiscard]] std::size_t calibration_pairs() const { return calibration_.pairs(); }
 
-  /// The scans of the latest kidnapping; nothing before the first one.
-  [[nodiscard]] const std::optional<ScanPair>& evidence() const { return evidence_; }
+  /// The latest jump that opened or updated an incident; nothing before the first one.
+  [[nodiscard]] const std::optional<Jump>& jump() const { return jump_; }
 
  private:
-  struct Suspicion {
-    Scan before;   // the last good scan before the jump
-    double score;  // of the jump
-  };
-
   [[nodiscard]] std::optional<Outcome> refusal(const Scan& scan);
-  [[nodiscard]] Outcome out_of_order(Stamp stamp);
+  [[nodiscard]] bool clock_was_set_back(Stamp stamp);
   Verdict judge(const Scan& scan);
-  [[nodiscard]] bool confirmed(const Scan& scan) const;
-  std::optional<EpisodeChange> advance(const Scan& scan, double score);
+  std::optional<EpisodeChange> advance(const Scan& scan, double score, double threshold);
+  std::optional<EpisodeChange> decide(const Scan& scan, double score, double threshold);
   std::optional<EpisodeChange> rest(Stamp stamp, double score);
-  EpisodeChange alarm(const Scan& after);
+  [[nodiscard]] RobotState state() const;
 
   DetectionConfig config_;
   Calibration calibration_;
-  std::optional<Scan> reference_;
-  std::optional<Suspicion> suspicion_;
-  std::optional<ScanPair> evidence_;
-  std::optional<Stamp> arrival_;
+  std::optional<Scan> reference_;  // the last good scan
+  std::optional<Jump> suspicion_;  // that the next good scan decides on
+  std::optional<Jump> jump_;       // that was confirmed last
+  std::optional<Stamp> arrival_;   // of any scan
   bool incident_open_ = false;
   std::optional<Stamp> quiet_since_;  // in an open incident: since when the scans fit together
-  std::size_t old_stamps_ = 0;        // in a row
-  Stamp oldest_run_{};                // the last of them
+  std::size_t old_stamps_ = 0;        // out of order in a row
+  Stamp last_old_stamp_{};
 };
 
 }  // namespace kidnapwatch::core

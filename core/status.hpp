@@ -19,9 +19,9 @@ struct RobotStatus {
   std::optional<Score> score;  ///< the latest
   std::optional<double> threshold;
   std::uint64_t calibration_pairs = 0;
-  std::uint64_t warmup_pairs = 0;  ///< calibration_pairs needed before there is a threshold
+  std::uint64_t warmup_pairs = 0;          ///< calibration_pairs needed before there is a threshold
   std::optional<std::string> incident_id;  ///< of the open incident
-  OutcomeCounts counts{};          ///< since the service started
+  OutcomeCounts counts{};                  ///< since the service started
 };
 
 struct ServiceStatus {

@@ -36,14 +36,14 @@ class Writer {
   bool add_score(const std::string& robot, const core::Score& score, core::Stamp arrival);
   /// Inserts or, by id, replaces; `evidence` only with the first. Never refused. Any thread.
   void put_incident(const core::Incident& incident, std::optional<core::ScanPair> evidence);
-  /// A new version of the configuration, as text; the future is ready when it is durable, and throws
-  /// what went wrong.
+  /// A new version of the configuration, as text; the future is ready when it is durable, and
+  /// throws what went wrong.
   std::future<void> add_config(std::int64_t version, core::Stamp since, const std::string& author,
                                const std::string& text);
 
   [[nodiscard]] std::uint64_t queued() const;
-  [[nodiscard]] std::uint64_t lost() const;     ///< refused scores
-  [[nodiscard]] bool healthy() const;           ///< the last commit succeeded
+  [[nodiscard]] std::uint64_t lost() const;  ///< refused scores
+  [[nodiscard]] bool healthy() const;        ///< the last commit succeeded
 };
 
 }  // namespace kidnapwatch::storage

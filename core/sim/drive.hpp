@@ -30,8 +30,8 @@ class Drive {
   /// notice a kidnapping.
   RecordedScan next(double step_s);
 
-  /// Puts the robot to `destination`; it drives on along its tour from the waypoint in sight that is
-  /// nearest.
+  /// Puts the robot to `destination`; it drives on along its tour from the waypoint in sight that
+  /// is nearest.
   void kidnap(const Pose& destination);
 
   /// Puts the robot to the free pose of the world that is farthest away; says which.
