@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// One list of members per struct, walked both to write and to read it.
+#include "adapters/codecs/config_json.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/names.hpp"
+
+namespace kidnapwatch::adapters::codecs {
+namespace {
+
+template <typename Config, typename Of>
+concept MaybeConst = std::same_as<std::remove_const_t<Config>, Of>;
+
+template <typename Visit, MaybeConst<core::DissimilarityConfig> Config>
+void each_member(Config& config, Visit& visit) {
+  visit("dimension", config.dimension);
+  visit("gate", config.gate);
+  visit("variance_test", config.variance_test);
+  visit("significance", config.significance);
+  visit("invalid", config.invalid);
+}
+
+template <typename Visit, MaybeConst<core::CalibrationConfig> Config>
+void each_member(Config& config, Visit& visit) {
+  visit("false_alarm_rate", config.false_alarm_rate);
+  visit("warmup_pairs", config.warmup_pairs);
+  visit("window_pairs", config.window_pairs);
+}
+
+template <typename Visit, MaybeConst<core::DetectionConfig> Config>
+void each_member(Config& config, Visit& visit) {
+  visit("dissimilarity", config.dissimilarity);
+  visit("calibration", config.calibration);
+  visit("threshold", config.threshold);
+  visit("stale_after_s", config.stale_after_s);
+  visit("resolve_after_s", config.resolve_after_s);
+  visit("resync_scans", config.resync_scans);
+}
+
+using Names = std::string_view;
+constexpr std::array<Names, 2> names(core::Dimension) { return {"ranges", "points"}; }
+constexpr std::array<Names, 4> names(core::Gate) {
+  return {"paper", "homogeneous", "never", "always"};
+}
+constexpr std::array<Names, 3> names(core::VarianceTest) {
+  return {"bartlett", "levene", "brown_forsythe"};
+}
+constexpr std::array<Names, 2> names(core::InvalidPolicy) { return {"drop", "clamp"}; }
+
+template <typename Value>
+concept Enum = std::is_enum_v<Value>;
+
+template <typename Value>
+concept Struct = std::is_class_v<Value>;
+
+/// Writes the members of one struct into `object`.
+struct Writer {
+  Json& object;
+
+  void operator()(const char* key, double value) { object[key] = value; }
+  void operator()(const char* key, std::size_t value) { object[key] = value; }
+  void operator()(const char* key, const std::optional<double>& value) {
+    object[key] = value ? Json(*value) : Json(nullptr);
+  }
+  void operator()(const char* key, const Enum auto& value) {
+    object[key] = names(value).at(static_cast<std::size_t>(value));
+  }
+  void operator()(const char* key, const Struct auto& config) {
+    Writer inner{object[key] = Json::object()};
+    each_member(config, inner);
+  }
+};
+
+/// Reads the members of one struct that `object` has, and remembers which it may have.
+class Reader {
+ public:
+  Reader(const Json& object, std::string path) : object_(object), path_(std::move(path)) {
+    if (!object.is_object()) {
+      throw core::BadInput(path_.empty() ? "body" : path_, "must be an object");
+    }
+  }
+
+  void operator()(const char* key, auto& value) {
+    known_.emplace_back(key);
+    if (const auto found = object_.find(key); found != object_.end()) {
+      read(*found, path_of(key), value);
+    }
+  }
+
+  void refuse_unknown() const {
+    for (const auto& [key, value] : object_.items()) {
+      if (std::ranges::find(known_, key) == known_.end()) {
+        throw core::BadInput(path_of(key), "is not a known member");
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::string path_of(const std::string& key) const {
+    return path_.empty() ? key : path_ + "." + key;
+  }
+
+  static void read(const Json& json, const std::string& path, double& value) {
+    if (!json.is_number()) {
+      throw core::BadInput(path, "must be a number");
+    }
+    value = json.get<double>();
+  }
+
+  static void read(const Json& json, const std::string& path, std::size_t& value) {
+    if (!json.is_number_unsigned()) {
+      throw core::BadInput(path, "must be an integer, at least 0");
+    }
+    value = json.get<std::size_t>();
+  }
+
+  static void read(const Json& json, const std::string& path, std::optional<double>& value) {
+    if (json.is_null()) {
+      value.reset();
+    } else {
+      read(json, path, value.emplace());
+    }
+  }
+
+  static void read(const Json& json, const std::string& path, Enum auto& value) {
+    const std::string text = json.is_string() ? json.get<std::string>() : std::string();
+    value = core::named<std::remove_reference_t<decltype(value)>>(names(value), text, path);
+  }
+
+  static void read(const Json& json, const std::string& path, Struct auto& config) {
+    Reader inner(json, path);
+    each_member(config, inner);
+    inner.refuse_unknown();
+  }
+
+  const Json& object_;
+  std::string path_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace
+
+Json json(const core::DetectionConfig& config) {
+  Json object = Json::object();
+  Writer writer{object};
+  each_member(config, writer);
+  return object;
+}
+
+core::DetectionConfig detection_config(const Json& object, const core::DetectionConfig& base) {
+  core::DetectionConfig config = base;
+  Reader reader(object, "");
+  each_member(config, reader);
+  reader.refuse_unknown();
+  return config;
+}
+
+}  // namespace kidnapwatch::adapters::codecs

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was stored, as JSON and CSV: scores, incidents, evidence.
+//
+// Names ending in "At" are times by the service's clock, names ending in "Time" (and a score's
+// "time") by the robot's; both are RFC 3339. `stamp` is always {sec, nanosec}, as in ROS.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "adapters/codecs/json.hpp"
+#include "core/incident.hpp"
+
+namespace kidnapwatch::adapters::codecs {
+
+[[nodiscard]] Json json(const core::Score& score);
+
+[[nodiscard]] Json json(const core::Incident& incident);
+
+/// Both scans as sensor_msgs/LaserScan, with null for a beam that is NaN or infinite, and the
+/// scores.
+[[nodiscard]] Json json(const core::Evidence& evidence);
+
+/// RFC 4180, a header line with the names of json(Score) first. An absent threshold is empty.
+[[nodiscard]] std::string scores_csv(std::span<const core::Score> scores);
+
+}  // namespace kidnapwatch::adapters::codecs

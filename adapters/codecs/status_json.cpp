@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robots and the service, member by member.
+#include "adapters/codecs/status_json.hpp"
+
+#include "adapters/codecs/history_json.hpp"
+#include "adapters/codecs/rfc3339.hpp"
+
+namespace kidnapwatch::adapters::codecs {
+namespace {
+
+/// Every outcome by its name, zeros too: a reader never has to ask whether one is known.
+Json json(const core::OutcomeCounts& counts) {
+  Json object = Json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    object[std::string(core::name(static_cast<core::Outcome>(i)))] = counts.at(i);
+  }
+  return object;
+}
+
+}  // namespace
+
+Json json(const core::RobotStatus& robot) {
+  Json object{{"id", robot.id},
+              {"state", core::name(robot.state)},
+              {"lastScanAt", rfc3339(robot.last_arrival)}};
+  set(object, "incidentId", robot.incident_id);
+  set(object, "threshold", robot.threshold);
+  object["calibration"] = {{"pairs", robot.calibration_pairs}, {"needed", robot.warmup_pairs}};
+  if (robot.score) {
+    object["lastScore"] = json(*robot.score);
+  }
+  object["scans"] = json(robot.counts);
+  return object;
+}
+
+Json json(const core::ServiceStatus& service) {
+  return {{"version", service.version},
+          {"startedAt", rfc3339(service.started)},
+          {"robots", service.robots},
+          {"brokerConnected", service.broker_connected},
+          {"storeHealthy", service.store_healthy},
+          {"queuedScans", service.queued_scans},
+          {"queuedWrites", service.queued_writes},
+          {"lostWrites", service.lost_writes},
+          {"scans", json(service.counts)}};
+}
+
+}  // namespace kidnapwatch::adapters::codecs

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The configuration as JSON, both ways.
+#include "adapters/codecs/config_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/bad_input.hpp"
+
+namespace kidnapwatch::adapters::codecs {
+namespace {
+
+constexpr const char* kDefaults =
+    R"({"dissimilarity":{"dimension":"points","gate":"paper","variance_test":"bartlett",)"
+    R"("significance":0.05,"invalid":"drop"},)"
+    R"("calibration":{"false_alarm_rate":0.001,"warmup_pairs":100,"window_pairs":1000},)"
+    R"("threshold":null,"stale_after_s":5.0,"resolve_after_s":30.0,"resync_scans":20})";
+
+core::DetectionConfig read(const char* text) { return detection_config(parsed(text, "body")); }
+
+/// The field that reading `text` complains of.
+std::string complaint(const char* text) {
+  try {
+    (void)read(text);
+  } catch (const core::BadInput& error) {
+    return error.field();
+  }
+  return "none";
+}
+
+TEST(ConfigJson, SpellsEveryMemberAsTheStructDoes) {
+  EXPECT_EQ(text(json(core::DetectionConfig{})), kDefaults);
+}
+
+TEST(ConfigJson, ReadsWhatItWrote) {
+  core::DetectionConfig config;
+  config.dissimilarity = {core::Dimension::ranges, core::Gate::always,
+                          core::VarianceTest::brown_forsythe, 0.01, core::InvalidPolicy::clamp};
+  config.calibration = {0.002, 50, 500};
+  config.threshold = 12.5;
+  config.stale_after_s = 2.0;
+  config.resolve_after_s = 60.0;
+  config.resync_scans = 5;
+  EXPECT_EQ(detection_config(parsed(text(json(config)), "body")), config);
+}
+
+TEST(ConfigJson, TakesTheBaseWhereAMemberIsAbsent) {
+  core::DetectionConfig base;
+  base.stale_after_s = 9.0;
+  base.threshold = 3.0;
+  const auto merged =
+      detection_config(parsed(R"({"calibration":{"warmup_pairs":40}})", "body"), base);
+  EXPECT_EQ(merged.stale_after_s, 9.0);
+  EXPECT_EQ(merged.threshold, 3.0);
+  EXPECT_EQ(merged.calibration.warmup_pairs, 40U);
+  EXPECT_EQ(merged.calibration.window_pairs, 1000U);
+}
+
+TEST(ConfigJson, ReadsAThresholdOfNullAsCalibrated) {
+  core::DetectionConfig base;
+  base.threshold = 3.0;
+  EXPECT_EQ(detection_config(parsed(R"({"threshold":null})", "body"), base).threshold,
+            std::nullopt);
+  EXPECT_EQ(read(R"({"threshold":7})").threshold, 7.0);
+}
+
+TEST(ConfigJson, NamesTheMemberThatIsUnknown) {
+  EXPECT_EQ(complaint(R"({"treshold":1})"), "treshold");
+  EXPECT_EQ(complaint(R"({"dissimilarity":{"gates":"paper"}})"), "dissimilarity.gates");
+}
+
+TEST(ConfigJson, NamesTheMemberOfTheWrongType) {
+  EXPECT_EQ(complaint("[]"), "body");
+  EXPECT_EQ(complaint("null"), "body");
+  EXPECT_EQ(complaint(R"({"dissimilarity":null})"), "dissimilarity");
+  EXPECT_EQ(complaint(R"({"dissimilarity":{"gate":1}})"), "dissimilarity.gate");
+  EXPECT_EQ(complaint(R"({"dissimilarity":{"gate":"Paper"}})"), "dissimilarity.gate");
+  EXPECT_EQ(complaint(R"({"dissimilarity":{"significance":"0.05"}})"),
+            "dissimilarity.significance");
+  EXPECT_EQ(complaint(R"({"calibration":{"warmup_pairs":-1}})"), "calibration.warmup_pairs");
+  EXPECT_EQ(complaint(R"({"calibration":{"warmup_pairs":40.0}})"), "calibration.warmup_pairs");
+  EXPECT_EQ(complaint(R"({"calibration":{"warmup_pairs":1e300}})"), "calibration.warmup_pairs");
+  EXPECT_EQ(complaint(R"({"threshold":true})"), "threshold");
+  EXPECT_EQ(complaint(R"({"stale_after_s":null})"), "stale_after_s");
+}
+
+TEST(ConfigJson, SaysWhichNamesAreAllowed) {
+  try {
+    (void)read(R"({"dissimilarity":{"gate":"open"}})");
+    FAIL() << "no exception";
+  } catch (const core::BadInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "dissimilarity.gate: must be one of paper, homogeneous, never, always");
+  }
+}
+
+}  // namespace
+}  // namespace kidnapwatch::adapters::codecs
