@@ -60,9 +60,9 @@ Observation Session::observe(Scan scan, Stamp arrival) {
     reference_ = std::move(scan);
     return {Outcome::first, {}};
   }
-  Verdict verdict = judge(scan);
+  const Verdict verdict = judge(scan);
   reference_ = std::move(scan);
-  return {Outcome::scored, std::move(verdict)};
+  return {Outcome::scored, verdict};
 }
 
 std::optional<Outcome> Session::refusal(const Scan& scan) {
