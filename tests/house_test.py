@@ -39,7 +39,7 @@ IMPURE_HEADERS = set(
 IMPURE_CALLS = re.compile(r"::now\s*\(|\brandom_device\b|\bgetenv\b|\bv?f?printf\s*\(")
 
 FORBIDDEN = re.compile(
-    r"\b(?:TODO|FIXME|XXX|HACK)\b|\busing namespace std\b"
+    r"\b(?:TODO|FIXME|XXX|HACK)\b|\busing namespace std;"
     r"|\b(?:class|struct)\s+\w*(?:Manager|Handler|Helper|Utils?|Factory|Registry)\b")
 
 
