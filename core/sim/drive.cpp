@@ -29,9 +29,9 @@ double distance_m(const Pose& pose, Point to) {
 
 /// Whether the robot fits through everywhere on the straight way.
 bool can_drive(const World& world, const Pose& from, Point to) {
-  const double steps = std::ceil(distance_m(from, to) / (0.5 * kBody)) + 1.0;
-  for (double i = 0.0; i <= steps; i += 1.0) {
-    const double share = i / steps;
+  const long steps = std::lround(std::ceil(distance_m(from, to) / (0.5 * kBody))) + 1;
+  for (long i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(steps);
     const Point at{from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m)};
     if (clearance_m(world, at) < kBody) return false;
   }
@@ -73,8 +73,8 @@ RecordedScan Drive::next(double step_s) {
 
 void Drive::move(double step_s) {
   const Pose before = T_map_base_;
-  const double rolls = std::ceil(step_s / kLongestStep);
-  for (double i = 0.0; i < rolls; i += 1.0) roll(step_s / rolls);
+  const long rolls = std::lround(std::ceil(step_s / kLongestStep));
+  for (long i = 0; i < rolls; ++i) roll(step_s / static_cast<double>(rolls));
   // The wheels' error grows with the motion of a step, the same way for its whole length.
   const Pose moved = inverse(before) * T_map_base_;
   const double stretch = 1.0 + model_.odometry_noise * normal_(random_);

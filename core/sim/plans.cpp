@@ -146,9 +146,9 @@ std::map<char, Point> marks(const Plan& plan) {
 /// Appends the waypoints of the leg from `from` (without) to `to` (with).
 void add_leg(Point from, Point to, std::vector<Point>& path) {
   const double length_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
-  const double steps = std::ceil(length_m / kLongestLeg);
-  for (double i = 1.0; i <= steps; i += 1.0) {
-    const double share = i / steps;
+  const long steps = std::lround(std::ceil(length_m / kLongestLeg));
+  for (long i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(steps);
     path.push_back(
         {from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m)});
   }
