@@ -5,45 +5,58 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "core/incident.hpp"
-#include "core/status.hpp"
+#include "storage/records.hpp"
 
 namespace kidnapwatch::storage {
 
 struct WriterConfig {
   std::filesystem::path file;
   std::chrono::milliseconds commit_every{50};
-  std::size_t max_queued = 100'000;
+  std::size_t max_queued = 100'000;           ///< scores
+  std::chrono::milliseconds retry_max{1000};  ///< longest wait between attempts at a failed commit
 };
 
 /// Durable once a commit returned (WAL, synchronous=FULL). Scores wait for the next group commit;
 /// an incident, its evidence and a configuration are committed at once.
+///
+/// While the disk refuses (full, I/O error) the Writer is not healthy; it keeps what it has and
+/// tries again with growing pauses, so that memory holds at most max_queued scores and the
+/// incidents.
 class Writer {
  public:
-  /// Opens and migrates the file. Throws StorageError if that fails.
+  /// Opens and migrates the file (prepare_store). Throws StorageError if that fails.
   explicit Writer(const WriterConfig& config);
-  /// Writes all that is queued, then stops.
+  /// Writes all that is queued, then stops; gives up at the first failure.
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
   /// False, and counted, if the queue is full. Never blocks. Any thread.
   bool add_score(const std::string& robot, const core::Score& score, core::Stamp arrival);
-  /// Inserts or, by id, replaces; `evidence` only with the first. Never refused. Any thread.
-  void put_incident(const core::Incident& incident, std::optional<core::ScanPair> evidence);
+  /// Inserts or, by id, replaces unless the stored seq is higher. Never refused. Any thread.
+  void put_incident(IncidentChange change);
   /// A new version of the configuration, as text; the future is ready when it is durable, and
-  /// throws what went wrong.
-  std::future<void> add_config(std::int64_t version, core::Stamp since, const std::string& author,
-                               const std::string& text);
+  /// throws StorageError if it could not be written: then it never will be. Any thread.
+  std::future<void> add_config(ConfigText config);
+  /// Ready when all that was given before is durable; throws StorageError if the next attempt to
+  /// write it fails. Any thread.
+  std::future<void> flush();
 
-  [[nodiscard]] std::uint64_t queued() const;
-  [[nodiscard]] std::uint64_t lost() const;  ///< refused scores
-  [[nodiscard]] bool healthy() const;        ///< the last commit succeeded
+  [[nodiscard]] std::uint64_t queued() const;  ///< scores not yet durable
+  [[nodiscard]] std::uint64_t lost() const;    ///< scores refused
+  [[nodiscard]] bool healthy() const;          ///< the last commit succeeded
+  [[nodiscard]] std::string problem() const;   ///< why it did not; empty if healthy
+  /// Where a damaged file was put aside when this Writer started, with a fresh one in its place.
+  [[nodiscard]] const std::optional<std::filesystem::path>& quarantined() const;
+
+ private:
+  class Thread;
+  std::unique_ptr<Thread> thread_;
 };
 
 }  // namespace kidnapwatch::storage
