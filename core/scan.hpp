@@ -38,8 +38,8 @@ inline constexpr std::size_t kMaxBeams = 65536;
 void check(const Scan& scan);
 
 /// Whether beam `range_m` hit something in reach: finite and range_min < r < range_max, so that 0,
-/// inf, NaN and "at least range_max" codes are all misses (section 3.1, Eq. 1). The limits are taken
-/// as floats, as messages carry them: a range written "5.6" is not nearer than a range_max of "5.6".
+/// inf, NaN and "at least range_max" codes are all misses (section 3.1, Eq. 1). The limits are
+/// taken as floats, as messages carry them: a range of "5.6" is no nearer than a limit of "5.6".
 [[nodiscard]] constexpr bool is_valid(float range_m, const ScanGeometry& geometry) {
   return range_m > static_cast<float>(geometry.range_min_m) &&
          range_m < static_cast<float>(geometry.range_max_m);  // NaN compares false
