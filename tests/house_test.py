@@ -22,7 +22,7 @@ OWNERS = {
     "Eigen/": "core", "hwy/": "core", "boost/math/": "core",
     "nlohmann/": "adapters/codecs", "simdjson": "adapters/codecs",
     "mqtt/": "adapters/mqtt", "MQTT": "adapters/mqtt",
-    "zlib.h": "adapters/logs",
+    "zlib.h": "adapters/logs", "bzlib.h": "adapters/logs",
     "sqlite3": "storage", "zstd": "storage",
     "boost/asio": "api", "boost/beast": "api", "boost/system": "api", "openssl/": "api",
     "prometheus/": "api",

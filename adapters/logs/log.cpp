@@ -7,6 +7,7 @@
 #include "adapters/logs/carmen.hpp"
 #include "adapters/logs/cmu.hpp"
 #include "adapters/logs/lines.hpp"
+#include "adapters/logs/ros1_bag.hpp"
 #include "adapters/logs/scan_text.hpp"
 #include "core/bad_input.hpp"
 
@@ -18,10 +19,11 @@ struct Format {
   Log (*read)(Lines& lines);
 };
 
-constexpr std::array<Format, 3> kFormats{{
+constexpr std::array<Format, 4> kFormats{{
     {is_scan_text, read_scan_text},
     {is_carmen, read_carmen},
     {is_cmu, read_cmu},
+    {is_ros1_bag, read_ros1_bag},
 }};
 
 Log read(Lines& lines) {

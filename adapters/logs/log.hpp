@@ -12,7 +12,7 @@ namespace kidnapwatch::adapters::logs {
 
 struct Log {
   core::Recording recording;      ///< every scan passed core::check, stamps strictly increase
-  std::size_t skipped_lines = 0;  ///< broken lines that were left out
+  std::size_t skipped_lines = 0;  ///< broken lines or messages, left out
   std::string first_skipped;      ///< "file:line: field: reason" of the first of them
 };
 
