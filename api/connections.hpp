@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who is connected: how many may be, and how all of them are told to stop.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <unordered_map>
+
+namespace kidnapwatch::api {
+
+/// What becomes of a new connection.
+enum class Place {
+  served,
+  refused,  ///< told that there are too many
+  cut,      ///< not even told
+};
+
+/// The connections that there are, each under its own address. Any thread.
+class Connections {
+ public:
+  using Stop = std::function<void()>;
+
+  /// Serves `max_served` at a time, and refuses so many that it knows of twice as many.
+  explicit Connections(std::size_t max_served) : max_served_(max_served) {}
+
+  /// `stop` is what close() calls, on its thread, even just after the connection left.
+  Place enter(const void* connection, Stop stop);
+
+  /// Nothing if it is not in.
+  void leave(const void* connection);
+
+  /// Stops all that are in; from now on every new one is cut.
+  void close();
+
+  void wait_until_empty(std::chrono::milliseconds at_most);
+
+ private:
+  struct Entry {
+    Stop stop;
+    bool served;
+  };
+
+  const std::size_t max_served_;
+  std::mutex mutex_;
+  std::condition_variable left_;
+  std::unordered_map<const void*, Entry> in_;
+  std::size_t served_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace kidnapwatch::api

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Incidents from history, newest first, page by page.
+#include "api/incidents.hpp"
+
+#include "adapters/codecs/history_json.hpp"
+#include "api/problem.hpp"
+#include "core/bad_input.hpp"
+
+namespace kidnapwatch::api {
+namespace {
+
+using adapters::codecs::json;
+using adapters::codecs::Json;
+
+/// A cursor is the id of the last incident of the page before; clients only ever hand it back.
+std::string incident_of(const std::string& cursor) {
+  if (!core::is_robot_id(cursor)) {
+    throw core::BadInput("cursor", "must be taken from the link to the next page");
+  }
+  return cursor;
+}
+
+IncidentQuery query(const Call& call) {
+  IncidentQuery query;
+  query.robot = parameter(call, "robot");
+  if (const auto state = parameter(call, "state")) {
+    query.state = core::incident_state(*state, "state");
+  }
+  if (const auto kind = parameter(call, "kind")) {
+    query.kind = core::incident_kind(*kind, "kind");
+  }
+  query.opened_at = time_range(call);
+  if (const auto cursor = parameter(call, "cursor")) {
+    query.before_id = incident_of(*cursor);
+  }
+  return query;
+}
+
+}  // namespace
+
+Response get_incidents(const Call& call) {
+  const auto limit = page_limit(call, kDefaultPage);
+  auto wanted = query(call);
+  wanted.limit = limit + 1;
+  const auto incidents = call.ports.history.incidents(wanted);
+  Json body{{"incidents", Json::array()}};
+  for (std::size_t i = 0; i < std::min(limit, incidents.size()); ++i) {
+    body["incidents"].push_back(json(incidents[i]));
+  }
+  if (incidents.size() <= limit) {
+    return ok(body);
+  }
+  const auto next = link_with(call, "cursor", incidents[limit - 1].id);
+  body["next"] = next;
+  Response response = ok(body);
+  link_next(response, next);
+  return response;
+}
+
+Response get_incident(const Call& call) {
+  const auto incident = call.ports.history.incident(call.id);
+  return incident ? ok(json(*incident)) : problem(404, "no incident has the id " + call.id);
+}
+
+Response get_evidence(const Call& call) {
+  const auto evidence = call.ports.history.evidence(call.id);
+  return evidence ? ok(json(*evidence))
+                  : problem(404, "no evidence is kept of an incident " + call.id);
+}
+
+}  // namespace kidnapwatch::api

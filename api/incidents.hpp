@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Routes: incidents, and what they were concluded from.
+#pragma once
+
+#include "api/call.hpp"
+
+namespace kidnapwatch::api {
+
+[[nodiscard]] Response get_incidents(const Call& call);
+[[nodiscard]] Response get_incident(const Call& call);
+[[nodiscard]] Response get_evidence(const Call& call);
+
+}  // namespace kidnapwatch::api

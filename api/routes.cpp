@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every address of the API on one page.
+#include "api/routes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "api/config.hpp"
+#include "api/incidents.hpp"
+#include "api/problem.hpp"
+#include "api/robots.hpp"
+#include "api/service.hpp"
+#include "core/bad_input.hpp"
+
+namespace kidnapwatch::api {
+namespace {
+
+constexpr std::array kRoutes{
+    Route{"GET", "/api/v1/robots", "", get_robots},
+    Route{"GET", "/api/v1/robots/{id}", "", get_robot},
+    Route{"GET", "/api/v1/robots/{id}/scores", "from to limit", get_scores},
+    Route{"GET", "/api/v1/incidents", "robot state kind from to cursor limit", get_incidents},
+    Route{"GET", "/api/v1/incidents/{id}", "", get_incident},
+    Route{"GET", "/api/v1/incidents/{id}/evidence", "", get_evidence},
+    Route{"GET", "/api/v1/config", "", get_config},
+    Route{"PUT", "/api/v1/config", "", put_config},
+    Route{"GET", "/api/v1/service", "", get_service},
+    Route{"GET", "/api/v1/openapi.json", "", get_openapi},
+    Route{"GET", "/healthz", "", get_health},
+    Route{"GET", "/readyz", "", get_readiness},
+    Route{"GET", "/metrics", "", get_metrics},
+};
+
+/// What stands for {id} (empty if nothing does), or nothing if the path is another one.
+std::optional<std::string> match(std::string_view pattern,
+                                 const std::vector<std::string>& segments) {
+  std::string id;
+  pattern.remove_prefix(1);
+  for (const auto& segment : segments) {
+    const auto expected = take_until(pattern, '/');
+    if (expected == "{id}" && !segment.empty()) {
+      id = segment;
+    } else if (expected.empty() || expected != segment) {
+      return std::nullopt;
+    }
+  }
+  return pattern.empty() ? std::optional(id) : std::nullopt;
+}
+
+void refuse_unknown_parameters(const Call& call, std::string_view known) {
+  for (const auto& [name, value] : call.target.query) {
+    bool found = false;
+    for (auto rest = known; !rest.empty();) {
+      found |= take_until(rest, ' ') == name;
+    }
+    if (!found) {
+      throw core::BadInput(name, "is not a parameter of this address");
+    }
+  }
+}
+
+Response call_route(const Route& route, const Call& call) {
+  if (route.method != "GET" &&
+      !is_media_type(header(call.request, "Content-Type"), "application/json")) {
+    return problem(415, "the content type must be application/json");
+  }
+  refuse_unknown_parameters(call, route.parameters);
+  return route.answer(call);
+}
+
+Response not_allowed(std::set<std::string_view> methods) {
+  if (methods.contains("GET")) {
+    methods.insert("HEAD");
+  }
+  std::string allow;
+  for (const auto method : methods) {
+    allow += (allow.empty() ? "" : ", ") + std::string(method);
+  }
+  Response response = problem(405, "the methods of this address are " + allow);
+  response.headers.push_back({"Allow", allow});
+  return response;
+}
+
+Response dispatch(const Ports& ports, const Request& request) {
+  const Target target = parsed_target(request.target);
+  const std::string_view method =
+      request.method == "HEAD" ? std::string_view("GET") : request.method;
+  std::set<std::string_view> methods;
+  for (const auto& route : kRoutes) {
+    const auto id = match(route.pattern, target.segments);
+    if (id && route.method == method) {
+      return call_route(route, Call{ports, request, target, *id});
+    }
+    if (id) {
+      methods.insert(route.method);
+    }
+  }
+  return methods.empty() ? problem(404, "nothing is at this address") : not_allowed(methods);
+}
+
+}  // namespace
+
+std::span<const Route> routes() { return kRoutes; }
+
+Response answer(const Ports& ports, const Request& request, const Report& report) {
+  try {
+    return dispatch(ports, request);
+  } catch (const core::BadInput& error) {
+    return problem(error);
+  } catch (const std::exception& error) {
+    report(request.method + " " + request.target + ": " + error.what());
+    return problem(500, "the service failed; its log says more");
+  }
+}
+
+}  // namespace kidnapwatch::api

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fleet and a history that live in memory, and calls of the API on them.
+#pragma once
+
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "adapters/codecs/json.hpp"
+#include "api/routes.hpp"
+
+namespace kidnapwatch::api {
+
+using adapters::codecs::Json;
+using adapters::codecs::text;
+
+inline core::Stamp at_s(std::int64_t seconds) {
+  return core::stamp_from_ns(seconds * 1'000'000'000);
+}
+
+class MemoryFleet : public Fleet {
+ public:
+  std::vector<core::RobotStatus> robots_now;
+  core::ServiceStatus status_now;
+  bool broken = false;  ///< throws whatever is asked
+
+  [[nodiscard]] std::vector<core::RobotStatus> robots() const override {
+    if (broken) {
+      throw std::runtime_error("the fleet is broken");
+    }
+    return robots_now;
+  }
+
+  [[nodiscard]] std::optional<core::RobotStatus> robot(const std::string& id) const override {
+    for (const auto& robot : robots_now) {
+      if (robot.id == id) {
+        return robot;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] core::ServiceStatus status() const override { return status_now; }
+
+  [[nodiscard]] core::ConfigVersion config() const override {
+    const std::scoped_lock lock(mutex_);
+    return config_;
+  }
+
+  core::ConfigVersion put_config(const core::DetectionConfig& config,
+                                 std::optional<std::int64_t> seen_version,
+                                 const std::string& author) override {
+    core::check(config);
+    const std::scoped_lock lock(mutex_);
+    if (overtaken) {
+      overtaken = false;
+      ++config_.version;
+    }
+    if (seen_version && *seen_version != config_.version) {
+      throw VersionConflict{config_.version};
+    }
+    config_ = {config_.version + 1, config_.since, author, config};
+    return config_;
+  }
+
+  bool overtaken = false;  ///< somebody else is faster than the next put_config
+
+ private:
+  mutable std::mutex mutex_;
+  core::ConfigVersion config_;
+};
+
+class MemoryHistory : public History {
+ public:
+  std::vector<std::pair<std::string, core::Score>> all_scores;  ///< in order of stamps
+  std::vector<core::Incident> all_incidents;                    ///< newest first
+  std::vector<std::pair<std::string, core::Evidence>> all_evidence;
+
+  [[nodiscard]] std::vector<core::Score> scores(const std::string& robot, TimeRange stamps,
+                                                std::size_t limit) const override {
+    std::vector<core::Score> found;
+    for (const auto& [id, score] : all_scores) {
+      if (id == robot && contains(stamps, score.stamp) && found.size() < limit) {
+        found.push_back(score);
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::vector<core::Incident> incidents(const IncidentQuery& query) const override {
+    std::vector<core::Incident> found;
+    for (const auto& one : all_incidents) {
+      const bool wanted = query.robot.value_or(one.robot) == one.robot &&
+                          query.state.value_or(one.state) == one.state &&
+                          query.kind.value_or(one.kind) == one.kind &&
+                          contains(query.opened_at, one.opened_at) &&
+                          (!query.before_id || one.id < *query.before_id);
+      if (wanted && found.size() < query.limit) {
+        found.push_back(one);
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::optional<core::Incident> incident(const std::string& id) const override {
+    for (const auto& one : all_incidents) {
+      if (one.id == id) {
+        return one;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<core::Evidence> evidence(const std::string& id) const override {
+    for (const auto& [incident, evidence] : all_evidence) {
+      if (incident == id) {
+        return evidence;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static bool contains(TimeRange range, core::Stamp stamp) {
+    return range.from <= stamp && stamp < range.to;
+  }
+};
+
+/// Calls routes as functions, without a server.
+class ApiTest : public ::testing::Test {
+ protected:
+  Response call(Request request) {
+    return answer({fleet, history}, request, [this](const std::string& what) { report = what; });
+  }
+
+  Response get(const std::string& target, std::vector<Header> headers = {}) {
+    return call({"GET", target, std::move(headers), "", "10.0.0.7"});
+  }
+
+  Response put(const std::string& target, const std::string& body,
+               std::vector<Header> headers = {}) {
+    headers.push_back({"Content-Type", "application/json"});
+    return call({"PUT", target, std::move(headers), body, "10.0.0.7"});
+  }
+
+  static Json body(const Response& response) {
+    return adapters::codecs::parsed(response.body, "response");
+  }
+
+  static std::string header_of(const Response& response, const std::string& name) {
+    for (const auto& header : response.headers) {
+      if (header.name == name) {
+        return header.value;
+      }
+    }
+    return "";
+  }
+
+  MemoryFleet fleet;
+  MemoryHistory history;
+  std::string report;
+};
+
+}  // namespace kidnapwatch::api
