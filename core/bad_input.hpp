@@ -15,6 +15,7 @@ class BadInput : public std::invalid_argument {
       : std::invalid_argument(field + ": " + reason), field_(std::move(field)) {}
 
   [[nodiscard]] const std::string& field() const noexcept { return field_; }
+  [[nodiscard]] std::string reason() const { return std::string(what()).substr(field_.size() + 2); }
 
  private:
   std::string field_;

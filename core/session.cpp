@@ -2,11 +2,14 @@
 // The way of one robot's scans: refuse, compare with the last good one, judge.
 #include "core/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace kidnapwatch::core {
 namespace {
+
+constexpr double kOutstanding = 2.0;  // times the scores around it: a jump, not a fast turn
 
 void require(bool usable, const char* field, const char* reason) {
   if (!usable) {
@@ -44,11 +47,12 @@ void check(const DetectionConfig& config) {
 Session::Session(const DetectionConfig& config)
     : config_(config), calibration_(config.calibration) {}
 
-void Session::resume(std::span<const double> natural_scores, bool incident_open) {
+void Session::resume(std::span<const double> natural_scores, bool incident_open, Stamp now) {
   for (const double score : natural_scores) {
     calibration_.learn(score);
   }
   incident_open_ = incident_open;
+  arrival_ = now;
 }
 
 Observation Session::observe(Scan scan, Stamp arrival) {
@@ -98,38 +102,54 @@ Verdict Session::judge(const Scan& scan) {
   if (score.threshold) {
     verdict.change = advance(scan, score.dissimilarity.cost, *score.threshold);
   } else {
-    calibration_.learn(score.dissimilarity.cost);
+    learn(score.dissimilarity.cost);
   }
+  last_score_ = score.dissimilarity.cost;
   score.state = state();
   return verdict;
 }
 
 std::optional<EpisodeChange> Session::advance(const Scan& scan, double score, double threshold) {
-  if (suspicion_) {
-    return decide(scan, score, threshold);
+  if (suspicion_ && stands_out(scan, score, threshold)) {
+    return alarm();
   }
-  if (score <= threshold) {
-    return rest(scan.stamp, score);
+  dismiss_suspicion();
+  if (score > threshold) {
+    suspicion_ = Suspicion{Jump{{*reference_, scan}, score, threshold}, last_score_};
+    return std::nullopt;
   }
-  suspicion_ = Jump{{*reference_, scan}, score, threshold};
-  quiet_since_.reset();
-  return std::nullopt;
+  learn(score);
+  return rest(scan.stamp);
 }
 
-std::optional<EpisodeChange> Session::decide(const Scan& scan, double score, double threshold) {
-  Jump jump = *std::exchange(suspicion_, std::nullopt);
-  const auto across = dissimilarity(jump.scans.before, scan, config_.dissimilarity);
-  if (across.cost <= threshold) {  // a glitch: natural, and to be learned as such
-    calibration_.learn(jump.score);
-    return rest(scan.stamp, score);
-  }
-  jump_ = std::move(jump);
+bool Session::stands_out(const Scan& scan, double score, double threshold) const {
+  const Jump& jump = suspicion_->jump;
+  const double around = std::max(suspicion_->before, score);
+  return jump.score > kOutstanding * around &&
+         dissimilarity(jump.scans.before, scan, config_.dissimilarity).cost > threshold;
+}
+
+EpisodeChange Session::alarm() {
+  jump_ = std::exchange(suspicion_, std::nullopt)->jump;
+  quiet_since_.reset();
   return std::exchange(incident_open_, true) ? EpisodeChange::updated : EpisodeChange::opened;
 }
 
-std::optional<EpisodeChange> Session::rest(Stamp stamp, double score) {
+/// What was no kidnapping was natural, and is to be learned as such.
+void Session::dismiss_suspicion() {
+  if (const auto dismissed = std::exchange(suspicion_, std::nullopt)) {
+    learn(dismissed->jump.score);
+  }
+}
+
+void Session::learn(double score) {
   if (!incident_open_) {
     calibration_.learn(score);
+  }
+}
+
+std::optional<EpisodeChange> Session::rest(Stamp stamp) {
+  if (!incident_open_) {
     return std::nullopt;
   }
   if (!quiet_since_) {

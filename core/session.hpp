@@ -20,7 +20,7 @@ struct DetectionConfig {
   CalibrationConfig calibration;
   std::optional<double> threshold;  ///< overrides the calibrated one; unit of the raw score
   double stale_after_s = 5.0;       ///< without a scan, by time of arrival
-  double resolve_after_s = 30.0;    ///< of scans that fit together, by stamp; then an incident ends
+  double resolve_after_s = 30.0;    ///< without a jump, by stamp; then an incident ends
   std::size_t resync_scans = 20;  ///< old stamps in a row that mean the robot's clock was set back
 
   friend bool operator==(const DetectionConfig&, const DetectionConfig&) = default;
@@ -43,7 +43,7 @@ struct Score {
 enum class EpisodeChange {
   opened,    ///< a kidnapping was confirmed
   updated,   ///< moved again while the incident is open
-  resolved,  ///< by rule: the scans have fit together for resolve_after_s
+  resolved,  ///< by rule: there was no jump for resolve_after_s
 };
 
 /// The last good scan before a jump, and the first one after it.
@@ -69,16 +69,21 @@ struct Observation {
   std::optional<Verdict> verdict;  ///< exactly if the outcome is `scored`
 };
 
-/// A scan above the threshold makes the robot suspect. It is kidnapped if the next good scan, too,
-/// is above the threshold against the scan before the jump: a glitch of one scan is not.
+/// A scan above the threshold makes the robot suspect, and the next good scan decides. For the
+/// scans O, P | Q, R about the jump and their scores S, the robot is kidnapped if
+///
+///     S(P,Q) > threshold  and  S(P,R) > threshold  and  S(P,Q) > 2 max(S(O,P), S(Q,R))
+///
+/// so that neither a glitch of one scan (S(P,R) is small) nor a fast turn (S(O,P) or S(Q,R) is
+/// about as large) is a kidnapping.
 class Session {
  public:
   /// `config` passed check().
   explicit Session(const DetectionConfig& config);
 
-  /// Takes up where an earlier run stopped: its natural scores, oldest first, and whether an
-  /// incident was open.
-  void resume(std::span<const double> natural_scores, bool incident_open);
+  /// Takes up at `now` where an earlier run stopped: its natural scores, oldest first, and whether
+  /// an incident was open.
+  void resume(std::span<const double> natural_scores, bool incident_open, Stamp now);
 
   /// Takes the robot's next scan, which passed check(), arriving at `arrival`. Repeated, older and
   /// not comparable scans change nothing but the time of arrival. After resync_scans older scans in
@@ -105,22 +110,32 @@ class Session {
   [[nodiscard]] const std::optional<Jump>& jump() const { return jump_; }
 
  private:
+  /// A jump that the next good scan decides on.
+  struct Suspicion {
+    Jump jump;
+    double before;  // the score of the pair before the jump
+  };
+
   [[nodiscard]] std::optional<Outcome> refusal(const Scan& scan);
   [[nodiscard]] bool clock_was_set_back(Stamp stamp);
   Verdict judge(const Scan& scan);
   std::optional<EpisodeChange> advance(const Scan& scan, double score, double threshold);
-  std::optional<EpisodeChange> decide(const Scan& scan, double score, double threshold);
-  std::optional<EpisodeChange> rest(Stamp stamp, double score);
+  [[nodiscard]] bool stands_out(const Scan& scan, double score, double threshold) const;
+  EpisodeChange alarm();
+  void dismiss_suspicion();
+  std::optional<EpisodeChange> rest(Stamp stamp);
+  void learn(double score);
   [[nodiscard]] RobotState state() const;
 
   DetectionConfig config_;
   Calibration calibration_;
   std::optional<Scan> reference_;  // the last good scan
-  std::optional<Jump> suspicion_;  // that the next good scan decides on
-  std::optional<Jump> jump_;       // that was confirmed last
-  std::optional<Stamp> arrival_;   // of any scan
+  std::optional<Suspicion> suspicion_;
+  std::optional<Jump> jump_;      // that was confirmed last
+  std::optional<Stamp> arrival_;  // of any scan
   bool incident_open_ = false;
-  std::optional<Stamp> quiet_since_;  // in an open incident: since when the scans fit together
+  std::optional<Stamp> quiet_since_;  // in an open incident: since when there was no jump
+  double last_score_ = 0.0;           // of the pair before
   std::size_t old_stamps_ = 0;        // out of order in a row
   Stamp last_old_stamp_{};
 };
