@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said where, and how surely it arrives.
+#include "service/announcements.hpp"
+
+#include <utility>
+
+#include "adapters/codecs/messages.hpp"
+
+namespace kidnapwatch::service {
+
+namespace codecs = adapters::codecs;
+
+void Announcements::announce_state(const core::RobotStatus& status, core::Stamp now) {
+  link_.publish_state(status.id, codecs::state_message(status, now),
+                      std::string(codecs::kStateSchema));
+}
+
+void Announcements::announce_alert(const core::Alert& alert,
+                                   std::optional<core::ScanPair> evidence) {
+  link_.publish_alert(alert.incident.robot, codecs::alert_message(alert),
+                      std::string(codecs::kAlertSchema));
+  writer_.put_incident({alert.incident, std::move(evidence)});
+}
+
+void Announcements::announce_score(const std::string& robot, const core::Score& score,
+                                   core::Stamp arrival) {
+  if (publish_scores_) {
+    link_.publish_score(robot, codecs::score_message(robot, score),
+                        std::string(codecs::kScoreSchema));
+  }
+  writer_.add_score(robot, score, arrival);
+}
+
+}  // namespace kidnapwatch::service

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conclusions to those who wait for them: the broker at once, then the store.
+#pragma once
+
+#include "adapters/mqtt/link.hpp"
+#include "service/watch.hpp"
+#include "storage/writer.hpp"
+
+namespace kidnapwatch::service {
+
+class Announcements final : public Announcer {
+ public:
+  /// All outlive this. `publish_scores`: scores go to the broker, too.
+  Announcements(adapters::mqtt::Link& link, storage::Writer& writer, bool publish_scores)
+      : link_(link), writer_(writer), publish_scores_(publish_scores) {}
+
+  void announce_state(const core::RobotStatus& status, core::Stamp now) override;
+  void announce_alert(const core::Alert& alert, std::optional<core::ScanPair> evidence) override;
+  void announce_score(const std::string& robot, const core::Score& score,
+                      core::Stamp arrival) override;
+
+ private:
+  adapters::mqtt::Link& link_;
+  storage::Writer& writer_;
+  const bool publish_scores_;
+};
+
+}  // namespace kidnapwatch::service

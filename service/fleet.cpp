@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robots to lanes, and what everybody wants to know of them.
+#include "service/fleet.hpp"
+
+#include <functional>
+#include <utility>
+
+namespace kidnapwatch::service {
+
+Fleet::Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion detection)
+    : config_(config),
+      outside_(std::move(outside)),
+      detection_(std::make_shared<const core::ConfigVersion>(std::move(detection))),
+      around_{.announcer = outside_.announcer,
+              .now = outside_.now,
+              .new_id = outside_.new_id,
+              .config =
+                  [this] {
+                    const std::lock_guard lock(config_mutex_);
+                    return detection_;
+                  },
+              .log_refusal = outside_.log_refusal,
+              .payload = config_.payload} {
+  for (std::size_t i = 0; i < config_.lanes; ++i) {
+    lanes_.push_back(std::make_unique<Lane>(config_.queue_per_robot));
+  }
+}
+
+void Fleet::resume(const std::string& robot, const Past& past) {
+  const std::lock_guard lock(mutex_);
+  join(robot).watch->resume(past);
+}
+
+void Fleet::receive(const std::string& robot, Message message) {
+  if (const auto found = member(robot)) {
+    found->lane->push(*found->watch, std::move(message));
+  }
+}
+
+std::optional<Fleet::Member> Fleet::member(const std::string& robot) {
+  const std::lock_guard lock(mutex_);
+  if (const auto known = members_.find(robot); known != members_.end()) {
+    return known->second;
+  }
+  if (!core::is_robot_id(robot)) {
+    ++counts_.at(static_cast<std::size_t>(core::Outcome::bad_robot_id));
+    return std::nullopt;
+  }
+  if (members_.size() >= config_.max_robots) {
+    ++counts_.at(static_cast<std::size_t>(core::Outcome::too_many_robots));
+    return std::nullopt;
+  }
+  return join(robot);
+}
+
+Fleet::Member& Fleet::join(const std::string& robot) {
+  const auto watch = std::make_shared<Watch>(robot, around_);
+  Lane* lane = lanes_[std::hash<std::string>{}(robot) % lanes_.size()].get();
+  lane->add(watch);
+  return members_.emplace(robot, Member{watch, lane}).first->second;
+}
+
+void Fleet::count(core::Outcome outcome) {
+  const std::lock_guard lock(mutex_);
+  ++counts_.at(static_cast<std::size_t>(outcome));
+}
+
+void Fleet::stop() {
+  for (const auto& lane : lanes_) {
+    lane->stop();
+  }
+}
+
+std::vector<core::RobotStatus> Fleet::robots() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<core::RobotStatus> all;
+  all.reserve(members_.size());
+  for (const auto& [id, member] : members_) {
+    all.push_back(member.watch->status());
+  }
+  return all;
+}
+
+std::optional<core::RobotStatus> Fleet::robot(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = members_.find(id);
+  return found == members_.end() ? std::nullopt : std::optional(found->second.watch->status());
+}
+
+void Fleet::describe(core::ServiceStatus& status) const {
+  {
+    const std::lock_guard lock(mutex_);
+    status.counts = counts_;
+  }
+  const auto all = robots();
+  status.robots = all.size();
+  for (const auto& robot : all) {
+    for (std::size_t i = 0; i < core::kOutcomes; ++i) {
+      status.counts.at(i) += robot.counts.at(i);
+    }
+  }
+  status.queued_scans = 0;
+  for (const auto& lane : lanes_) {
+    status.queued_scans += lane->queued();
+  }
+}
+
+core::ConfigVersion Fleet::config() const { return *around_.config(); }
+
+core::ConfigVersion Fleet::put_config(const core::DetectionConfig& config,
+                                      std::optional<std::int64_t> seen_version,
+                                      const std::string& author) {
+  core::check(config);
+  const std::lock_guard one_at_a_time(put_mutex_);
+  const std::int64_t current = this->config().version;
+  if (seen_version && *seen_version != current) {
+    throw api::VersionConflict{current};
+  }
+  auto next = std::make_shared<const core::ConfigVersion>(
+      core::ConfigVersion{current + 1, outside_.now(), author, config});
+  outside_.save_config(*next);
+  const std::lock_guard lock(config_mutex_);
+  detection_ = next;
+  return *next;
+}
+
+}  // namespace kidnapwatch::service

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// All robots: which lane watches each, and the configuration that they share.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/ports.hpp"
+#include "service/lane.hpp"
+
+namespace kidnapwatch::service {
+
+struct FleetConfig {
+  std::size_t lanes = 2;
+  std::size_t queue_per_robot = 64;
+  std::size_t max_robots = 10'000;
+  adapters::codecs::ScanPayloadConfig payload;
+};
+
+/// Any thread may call anything.
+class Fleet {
+ public:
+  struct Outside {
+    Announcer& announcer;
+    std::function<core::Stamp()> now;
+    std::function<std::string(core::Stamp)> new_id;
+    std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
+    /// Makes a configuration durable, or throws.
+    std::function<void(const core::ConfigVersion&)> save_config;
+  };
+
+  /// `outside.announcer` outlives the fleet.
+  Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion detection);
+
+  /// A robot that an earlier run of the service knew. Before the first receive().
+  void resume(const std::string& robot, const Past& past);
+
+  /// A scan of `robot`, which need not be known nor be a robot id.
+  void receive(const std::string& robot, Message message);
+  /// A message that belongs to no robot.
+  void count(core::Outcome outcome);
+  /// Finishes what is queued. No call of receive() may follow.
+  void stop();
+
+  [[nodiscard]] std::vector<core::RobotStatus> robots() const;
+  [[nodiscard]] std::optional<core::RobotStatus> robot(const std::string& id) const;
+  /// `counts`, `robots` and `queued_scans`.
+  void describe(core::ServiceStatus& status) const;
+
+  [[nodiscard]] core::ConfigVersion config() const;
+  /// As api::Fleet::put_config.
+  core::ConfigVersion put_config(const core::DetectionConfig& config,
+                                 std::optional<std::int64_t> seen_version,
+                                 const std::string& author);
+
+ private:
+  struct Member {
+    std::shared_ptr<Watch> watch;
+    Lane* lane;
+  };
+
+  [[nodiscard]] std::optional<Member> member(const std::string& robot);
+  [[nodiscard]] Member& join(const std::string& robot);
+
+  const FleetConfig config_;
+  Outside outside_;
+  mutable std::mutex config_mutex_;  // over detection_
+  std::shared_ptr<const core::ConfigVersion> detection_;
+  std::mutex put_mutex_;  // one change of the configuration at a time
+  Surroundings around_;
+  mutable std::mutex mutex_;  // over members_ and counts_
+  std::map<std::string, Member> members_;
+  core::OutcomeCounts counts_{};
+  std::vector<std::unique_ptr<Lane>> lanes_;  // last: they stop before what they use goes
+};
+
+}  // namespace kidnapwatch::service

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wires broker, fleet, store and REST; starts and stops them in order.
+#include "service/service.hpp"
+
+#include <bit>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <random>
+
+#include <spdlog/spdlog.h>
+
+#include "adapters/codecs/config_json.hpp"
+#include "adapters/codecs/messages.hpp"
+#include "adapters/mqtt/link.hpp"
+#include "api/routes.hpp"
+#include "api/server.hpp"
+#include "service/announcements.hpp"
+#include "service/fleet.hpp"
+#include "service/ids.hpp"
+#include "storage/archive.hpp"
+#include "storage/writer.hpp"
+
+namespace kidnapwatch::service {
+namespace {
+
+namespace codecs = adapters::codecs;
+namespace mqtt = adapters::mqtt;
+
+core::Stamp now() {
+  return std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
+}
+
+std::uint64_t random_seed() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32U) | device();
+}
+
+/// Logs the 1st, 2nd, 4th, 8th, ... refusal of each robot: a broken robot must not fill the disk.
+class RefusalLog {
+ public:
+  void operator()(const std::string& robot, const core::BadInput& why) {
+    const std::lock_guard lock(mutex_);
+    const std::uint64_t count = ++counts_[robot];
+    if (std::has_single_bit(count)) {
+      spdlog::warn("robot {}: refused scan {}: {}", robot, count, why.what());
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::uint64_t> counts_;
+};
+
+/// The stored history, as REST asks for it.
+class StoredHistory final : public api::History {
+ public:
+  explicit StoredHistory(const storage::Archive& archive) : archive_(archive) {}
+
+  [[nodiscard]] std::vector<core::Score> scores(const std::string& robot, api::TimeRange stamps,
+                                                std::size_t limit) const override {
+    return archive_.scores(robot, stamps.from, stamps.to, limit);
+  }
+  [[nodiscard]] std::vector<core::Incident> incidents(
+      const api::IncidentQuery& query) const override {
+    return archive_.incidents({.robot = query.robot,
+                               .state = query.state,
+                               .kind = query.kind,
+                               .opened_from = query.opened_at.from,
+                               .opened_to = query.opened_at.to,
+                               .before_id = query.before_id,
+                               .limit = query.limit});
+  }
+  [[nodiscard]] std::optional<core::Incident> incident(const std::string& id) const override {
+    return archive_.incident(id);
+  }
+  [[nodiscard]] std::optional<core::Evidence> evidence(const std::string& id) const override {
+    return archive_.evidence(id);
+  }
+
+ private:
+  const storage::Archive& archive_;
+};
+
+/// The configuration that was set last; if none was, the one of the settings.
+core::ConfigVersion starting_config(const storage::Archive& archive, const Settings& settings) {
+  const auto stored = archive.config();
+  if (!stored) {
+    return {.version = 0, .since = now(), .author = "settings", .config = settings.detection};
+  }
+  return {.version = stored->version,
+          .since = stored->since,
+          .author = stored->author,
+          .config = codecs::detection_config(codecs::parsed(stored->text, "stored config"))};
+}
+
+}  // namespace
+
+class Service::Parts final : public api::Fleet {
+ public:
+  explicit Parts(const Settings& settings);
+
+  [[nodiscard]] std::uint16_t http_port() const { return server_->port(); }
+  void stop();
+
+  [[nodiscard]] std::vector<core::RobotStatus> robots() const override { return fleet_.robots(); }
+  [[nodiscard]] std::optional<core::RobotStatus> robot(const std::string& id) const override {
+    return fleet_.robot(id);
+  }
+  [[nodiscard]] core::ServiceStatus status() const override;
+  [[nodiscard]] core::ConfigVersion config() const override { return fleet_.config(); }
+  core::ConfigVersion put_config(const core::DetectionConfig& config,
+                                 std::optional<std::int64_t> seen_version,
+                                 const std::string& author) override {
+    return fleet_.put_config(config, seen_version, author);
+  }
+
+ private:
+  [[nodiscard]] mqtt::LinkConfig link_config() const;
+  [[nodiscard]] mqtt::LinkEvents link_events();
+  [[nodiscard]] service::Fleet::Outside outside();
+  void resume_robots();
+  void receive(const mqtt::Topic& topic, const mqtt::Received& message);
+  void say_again();
+
+  const Settings settings_;
+  const core::Stamp started_ = now();
+  RefusalLog log_refusal_;
+  Ids ids_{random_seed()};
+  storage::Writer writer_;
+  const storage::Archive archive_;
+  const StoredHistory history_{archive_};
+  mqtt::Link link_;
+  Announcements announcements_;
+  service::Fleet fleet_;
+  const api::Ports ports_{*this, history_};
+  std::unique_ptr<api::Server> server_;
+};
+
+Service::Parts::Parts(const Settings& settings)
+    : settings_(settings),
+      writer_({.file = settings.store_file,
+               .commit_every = std::chrono::milliseconds(settings.store_commit_every_ms)}),
+      archive_(settings.store_file),
+      link_(link_config(), link_events()),
+      announcements_(link_, writer_, settings.mqtt_publish_scores),
+      fleet_({.lanes = settings.service_lanes,
+              .queue_per_robot = settings.service_queue_per_robot,
+              .max_robots = settings.service_max_robots,
+              .payload = {.max_payload_bytes = settings.service_max_payload_bytes}},
+             outside(), starting_config(archive_, settings)) {
+  if (writer_.quarantined()) {
+    spdlog::error("the store was damaged; it is kept as {}, and a fresh one was started",
+                  writer_.quarantined()->string());
+  }
+  resume_robots();
+  server_ = std::make_unique<api::Server>(
+      api::ServerConfig{.address = settings.http_host,
+                        .port = settings.http_port,
+                        .max_connections = settings.http_max_connections},
+      [this](const api::Request& request) {
+        return api::answer(ports_, request, [](const std::string& fault) {
+          spdlog::error("a request failed: {}", fault);
+        });
+      });
+  link_.start();
+}
+
+mqtt::LinkConfig Service::Parts::link_config() const {
+  return {.broker = {.url = settings_.mqtt_url,
+                     .username = settings_.mqtt_username,
+                     .password = settings_.mqtt_password,
+                     .ca_file = settings_.mqtt_ca_file,
+                     .cert_file = settings_.mqtt_cert_file,
+                     .key_file = settings_.mqtt_key_file},
+          .client_id = settings_.mqtt_client_id,
+          .topics = {.prefix = settings_.mqtt_prefix, .scan_filters = settings_.mqtt_scan_filters},
+          .online = codecs::service_status_message("online", KW_VERSION, started_),
+          .stopped = codecs::service_status_message("stopped", KW_VERSION, started_),
+          .offline = codecs::service_status_message("offline", KW_VERSION, started_)};
+}
+
+mqtt::LinkEvents Service::Parts::link_events() {
+  return {.on_message = [this](const auto& topic, const auto& message) { receive(topic, message); },
+          .on_connected = [this] { say_again(); },
+          .on_trouble = [](const std::string& what) { spdlog::warn("broker: {}", what); }};
+}
+
+service::Fleet::Outside Service::Parts::outside() {
+  return {.announcer = announcements_,
+          .now = now,
+          .new_id = [this](core::Stamp at) { return ids_.next(at); },
+          .log_refusal = [this](const std::string& robot,
+                                const core::BadInput& why) { log_refusal_(robot, why); },
+          .save_config =
+              [this](const core::ConfigVersion& config) {
+                writer_
+                    .add_config({config.version, config.since, config.author,
+                                 codecs::text(codecs::json(config.config))})
+                    .get();
+              }};
+}
+
+void Service::Parts::resume_robots() {
+  std::map<std::string, Past> pasts;
+  for (auto& robot : archive_.robots(fleet_.config().config.calibration.window_pairs)) {
+    pasts[robot.robot].natural_scores = std::move(robot.natural_scores);
+  }
+  for (auto& incident : archive_.unresolved_incidents()) {
+    const std::string robot = incident.robot;
+    pasts[robot].open_incident = std::move(incident);
+  }
+  for (const auto& [robot, past] : pasts) {
+    fleet_.resume(robot, past);
+  }
+}
+
+void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& message) {
+  switch (topic.kind) {
+    case mqtt::TopicKind::scan:
+      fleet_.receive(std::string(topic.robot),
+                     {message.payload, std::string(message.content_type), now()});
+      break;
+    case mqtt::TopicKind::bad_robot_id:
+      fleet_.count(core::Outcome::bad_robot_id);
+      break;
+    case mqtt::TopicKind::unknown:
+      fleet_.count(core::Outcome::unknown_topic);
+      break;
+    case mqtt::TopicKind::odom:
+    case mqtt::TopicKind::command:
+    case mqtt::TopicKind::own:
+      break;
+  }
+}
+
+/// A broker that was restarted may have forgotten what was retained.
+void Service::Parts::say_again() {
+  for (const auto& robot : fleet_.robots()) {
+    announcements_.announce_state(robot, now());
+  }
+}
+
+core::ServiceStatus Service::Parts::status() const {
+  core::ServiceStatus status;
+  fleet_.describe(status);
+  status.version = KW_VERSION;
+  status.started = started_;
+  status.broker_connected = link_.connected();
+  status.store_healthy = writer_.healthy();
+  status.queued_writes = writer_.queued();
+  status.lost_writes = writer_.lost();
+  return status;
+}
+
+void Service::Parts::stop() {
+  link_.stop_receiving();
+  fleet_.stop();
+  link_.stop(std::chrono::seconds(5));
+  server_.reset();
+}
+
+Service::Service(const Settings& settings) : parts_(std::make_unique<Parts>(settings)) {}
+
+Service::~Service() { stop(); }
+
+std::uint16_t Service::http_port() const { return parts_->http_port(); }
+
+void Service::stop() {
+  if (parts_) {
+    parts_->stop();
+    parts_.reset();  // the writer finishes its queue
+  }
+}
+
+}  // namespace kidnapwatch::service

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of settings, and the four places that they come from.
+#include "service/settings.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include <toml++/toml.h>
+
+#include "adapters/codecs/config_json.hpp"
+#include "core/bad_input.hpp"
+
+namespace kidnapwatch::service {
+namespace {
+
+using core::BadInput;
+namespace codecs = adapters::codecs;
+
+// --- one reader and one writer per type ---------------------------------------------------------
+
+void parse(const std::string& key, const std::string& text, std::string& value) {
+  if (text.find('\0') != std::string::npos) {
+    throw BadInput(key, "must not contain a zero byte");
+  }
+  value = text;
+}
+
+void parse(const std::string& key, const std::string& text, bool& value) {
+  if (text != "true" && text != "false") {
+    throw BadInput(key, "must be true or false, not '" + text + "'");
+  }
+  value = text == "true";
+}
+
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void parse(const std::string& key, const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) {
+    throw BadInput(key, "must be a number in range, not '" + text + "'");
+  }
+}
+
+void parse(const std::string&, const std::string& text, std::vector<std::string>& values) {
+  values.clear();
+  std::istringstream list(text);
+  for (std::string one; std::getline(list, one, ',');) {
+    values.push_back(one);
+  }
+}
+
+std::string shown(const std::string& value) { return value; }
+std::string shown(bool value) { return value ? "true" : "false"; }
+std::string shown(const std::vector<std::string>& values) {
+  std::string text;
+  for (const auto& value : values) {
+    text += (text.empty() ? "" : ",") + value;
+  }
+  return text;
+}
+template <typename Number>
+requires std::is_arithmetic_v<Number> std::string shown(Number value) {
+  return std::to_string(value);
+}
+
+template <typename Value>
+Setting setting(const char* key, Value Settings::*member, const char* help) {
+  return {key, help, false,
+          [=](Settings& settings, const std::string& text) { parse(key, text, settings.*member); },
+          [=](const Settings& settings) { return shown(settings.*member); }};
+}
+
+Setting secret(const char* key, std::string Settings::*member, const char* help) {
+  Setting one = setting(key, member, help);
+  one.secret = true;
+  one.show = [=](const Settings& settings) {
+    return std::string((settings.*member).empty() ? "" : "(hidden)");
+  };
+  return one;
+}
+
+std::size_t checked(const char* key, std::size_t value, std::size_t low, std::size_t high) {
+  if (value < low || value > high) {
+    throw BadInput(key, "must be from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return value;
+}
+
+Setting bounded(const char* key, std::size_t Settings::*member, std::size_t low, std::size_t high,
+                const char* help) {
+  Setting one = setting(key, member, help);
+  one.read = [=](Settings& settings, const std::string& text) {
+    std::size_t value = 0;
+    parse(key, text, value);
+    settings.*member = checked(key, value, low, high);
+  };
+  return one;
+}
+
+Setting detection() {
+  return {"detection",
+          "how kidnappings are detected until REST sets another configuration, as in PUT /config",
+          false,
+          [](Settings& settings, const std::string& text) {
+            try {
+              settings.detection = codecs::detection_config(codecs::parsed(text, "detection"));
+              core::check(settings.detection);
+            } catch (const BadInput& e) {
+              throw BadInput("detection." + e.field(), e.reason());
+            }
+          },
+          [](const Settings& settings) { return codecs::text(codecs::json(settings.detection)); }};
+}
+
+std::vector<Setting> table() {
+  using S = Settings;
+  return {
+      setting("mqtt.url", &S::mqtt_url, "broker: mqtt://host:port or mqtts://host:port"),
+      setting("mqtt.prefix", &S::mqtt_prefix, "first levels of every topic"),
+      setting("mqtt.client_id", &S::mqtt_client_id, "client id, one per service"),
+      setting("mqtt.scan_filters", &S::mqtt_scan_filters,
+              "further topic filters with scans, comma-separated; '+' stands for the robot"),
+      setting("mqtt.username", &S::mqtt_username, "user name, if the broker asks for one"),
+      secret("mqtt.password", &S::mqtt_password, "password, if the broker asks for one"),
+      setting("mqtt.ca_file", &S::mqtt_ca_file, "certificate authority of the broker (mqtts)"),
+      setting("mqtt.cert_file", &S::mqtt_cert_file, "the service's own certificate (mqtts)"),
+      setting("mqtt.key_file", &S::mqtt_key_file, "the key of that certificate"),
+      setting("mqtt.publish_scores", &S::mqtt_publish_scores, "publish every score, too"),
+      setting("http.host", &S::http_host, "address to listen on"),
+      setting("http.port", &S::http_port, "port to listen on; 0 takes a free one"),
+      bounded("http.max_connections", &S::http_max_connections, 1, 10'000, "at once"),
+      setting("store.file", &S::store_file, "the database"),
+      bounded("store.commit_every_ms", &S::store_commit_every_ms, 1, 10'000,
+              "scores are made durable this often"),
+      bounded("service.lanes", &S::service_lanes, 1, 256, "threads that score"),
+      bounded("service.queue_per_robot", &S::service_queue_per_robot, 1, 100'000,
+              "scans of one robot that may wait; beyond, its oldest is dropped"),
+      bounded("service.max_robots", &S::service_max_robots, 1, 1'000'000, "robots at most"),
+      bounded("service.max_payload_bytes", &S::service_max_payload_bytes, 1024, 67'108'864,
+              "a larger message is refused"),
+      setting("service.log_level", &S::service_log_level, "debug, info, warn or error"),
+      detection(),
+  };
+}
+
+// --- the file ------------------------------------------------------------------------------------
+
+std::string where(const std::filesystem::path& file, const toml::source_region& source) {
+  return file.string() + ":" + std::to_string(source.begin.line);
+}
+
+std::string json_of(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_table<decltype(value)>) {
+      out << toml::json_formatter(value);
+    }
+  });
+  return out.str();
+}
+
+/// The text that an environment variable of the same meaning would hold.
+std::string text_of(const std::string& key, const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    return text->get();
+  }
+  if (const auto* list = node.as_array()) {
+    std::string text;
+    for (const auto& one : *list) {
+      text += (text.empty() ? "" : ",") + text_of(key, one);
+    }
+    return text;
+  }
+  if (const auto* flag = node.as_boolean()) {
+    return flag->get() ? "true" : "false";
+  }
+  std::ostringstream out;
+  if (const auto* number = node.as_integer()) {
+    out << number->get();
+  } else if (const auto* real = node.as_floating_point()) {
+    out << real->get();
+  } else {
+    throw BadInput(key, "must be a string, a number, true or false, or a list of strings");
+  }
+  return out.str();
+}
+
+const Setting* find(const std::string& key) {
+  const auto settings = all_settings();
+  const auto found = std::ranges::find(settings, key, &Setting::key);
+  return found == settings.end() ? nullptr : &*found;
+}
+
+void take(LoadedSettings& loaded, const Setting& setting, const std::string& text,
+          const std::string& origin) {
+  try {
+    setting.read(loaded.settings, text);
+  } catch (const BadInput& e) {
+    throw BadInput(e.field(), e.reason() + " (" + origin + ")");
+  }
+  loaded.origins[setting.key] = origin;
+}
+
+void take_node(LoadedSettings& loaded, const std::filesystem::path& file, const std::string& key,
+               const toml::node& node) {
+  const std::string place = where(file, node.source());
+  if (const Setting* setting = find(key)) {
+    take(loaded, *setting, node.is_table() ? json_of(node) : text_of(key, node), place);
+  } else if (const auto* table = node.as_table(); table && key.find('.') == std::string::npos) {
+    for (const auto& [name, child] : *table) {
+      take_node(loaded, file, key + "." + std::string(name.str()), child);
+    }
+  } else {
+    throw BadInput(key, "is no setting (" + place + ")");
+  }
+}
+
+void take_file(LoadedSettings& loaded, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) {
+    throw BadInput("config", "cannot read " + file.string());
+  }
+  try {
+    const std::string content = text.str();
+    for (const auto& [name, node] :
+         toml::parse(std::string_view(content), std::string_view(file.native()))) {
+      take_node(loaded, file, std::string(name.str()), node);
+    }
+  } catch (const toml::parse_error& e) {
+    throw BadInput("config", std::string(e.description()) + " (" + where(file, e.source()) + ")");
+  }
+}
+
+// --- the environment and the flags ---------------------------------------------------------------
+
+void take_secret_files(LoadedSettings& loaded, const Sources& sources, const Setting& setting) {
+  if (const auto folder = sources.environment("CREDENTIALS_DIRECTORY")) {
+    const auto file = std::filesystem::path(*folder) / setting.key;
+    if (std::filesystem::exists(file)) {
+      take(loaded, setting, first_line_of(setting.key, file), "credential " + file.string());
+    }
+  }
+  const std::string name = environment_name(setting) + "_FILE";
+  if (const auto file = sources.environment(name)) {
+    take(loaded, setting, first_line_of(setting.key, *file), "environment " + name);
+  }
+}
+
+void take_environment(LoadedSettings& loaded, const Sources& sources) {
+  for (const auto& setting : all_settings()) {
+    if (setting.secret) {
+      take_secret_files(loaded, sources, setting);
+    }
+    const std::string name = environment_name(setting);
+    if (const auto text = sources.environment(name)) {
+      take(loaded, setting, *text, "environment " + name);
+    }
+  }
+}
+
+void take_flags(LoadedSettings& loaded, const Sources& sources) {
+  for (const auto& [key, text] : sources.flags) {
+    take(loaded, *find(key), text, "flag --" + key);
+  }
+}
+
+}  // namespace
+
+std::span<const Setting> all_settings() {
+  static const std::vector<Setting> kTable = table();
+  return kTable;
+}
+
+std::string environment_name(const Setting& setting) {
+  std::string name = "KIDNAPWATCH_" + setting.key;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) {
+    return c == '.' ? '_' : static_cast<char>(std::toupper(c));
+  });
+  return name;
+}
+
+LoadedSettings load_settings(const Sources& sources) {
+  LoadedSettings loaded;
+  for (const auto& setting : all_settings()) {
+    loaded.origins[setting.key] = "default";
+  }
+  if (sources.file) {
+    take_file(loaded, *sources.file);
+  }
+  take_environment(loaded, sources);
+  take_flags(loaded, sources);
+  return loaded;
+}
+
+std::string first_line_of(const std::string& field, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  if (!in || !std::getline(in, line)) {
+    throw BadInput(field, "cannot read " + file.string());
+  }
+  return line;
+}
+
+std::optional<std::string> process_environment(const std::string& name) {
+  const char* value = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe): before threads
+  return value ? std::optional<std::string>(value) : std::nullopt;
+}
+
+}  // namespace kidnapwatch::service

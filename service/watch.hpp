@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// One robot being watched: its payloads in, announcements out, its status for anyone who looks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "adapters/codecs/scan_payload.hpp"
+#include "core/incident.hpp"
+#include "core/status.hpp"
+
+namespace kidnapwatch::service {
+
+/// A message from a robot, as it came from the broker.
+struct Message {
+  std::shared_ptr<const std::string> payload;  ///< never null
+  std::string content_type;                    ///< MQTT 5; empty if the publisher told none
+  core::Stamp arrival;
+};
+
+/// Where conclusions go. Called on the robot's lane; never blocks and never throws.
+class Announcer {
+ public:
+  virtual ~Announcer() = default;
+  virtual void announce_state(const core::RobotStatus& status, core::Stamp now) = 0;
+  /// `evidence` with a kidnapping, not with the end of one.
+  virtual void announce_alert(const core::Alert& alert, std::optional<core::ScanPair> evidence) = 0;
+  virtual void announce_score(const std::string& robot, const core::Score& score,
+                              core::Stamp arrival) = 0;
+};
+
+/// What all watches share. The functions may be called from any lane.
+struct Surroundings {
+  Announcer& announcer;
+  std::function<core::Stamp()> now;
+  std::function<std::string(core::Stamp)> new_id;
+  std::function<std::shared_ptr<const core::ConfigVersion>()> config;
+  std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
+  adapters::codecs::ScanPayloadConfig payload;
+};
+
+/// What an earlier run of the service left of a robot.
+struct Past {
+  std::vector<double> natural_scores;  ///< oldest first
+  std::optional<core::Incident> open_incident;
+};
+
+class Watch {
+ public:
+  Watch(std::string id, const Surroundings& around);
+
+  void resume(const Past& past);
+
+  /// On the robot's lane: one scan, to its end.
+  void take(const Message& message);
+  /// On the robot's lane, now and then: tells when the robot fell silent.
+  void tick();
+
+  /// Any thread.
+  [[nodiscard]] core::RobotStatus status() const;
+  void count(core::Outcome outcome);
+  [[nodiscard]] const std::string& id() const noexcept { return id_; }
+
+ private:
+  [[nodiscard]] core::Outcome outcome_of(const Message& message);
+  void conclude(const core::Verdict& verdict, core::Stamp arrival);
+  void change_incident(core::EpisodeChange change, core::Stamp now);
+  void refresh_config();
+  void refresh_status(core::Stamp now);
+
+  const std::string id_;
+  const Surroundings& around_;
+  std::shared_ptr<const core::ConfigVersion> config_;
+  core::Session session_;
+  adapters::codecs::ScanDecoder decoder_;
+  core::Incident incident_;  // the latest; meaningless before the first
+  bool incident_open_ = false;
+
+  mutable std::mutex mutex_;  // over status_ alone
+  core::RobotStatus status_;
+};
+
+}  // namespace kidnapwatch::service

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real broker, a real service and the tools that people use with them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/codecs/json.hpp"
+#include "tests/support/mosquitto.hpp"
+#include "tests/support/process.hpp"
+
+namespace kidnapwatch::test {
+
+using adapters::codecs::Json;
+
+/// A message as mosquitto_sub received it.
+struct Received {
+  double at_s = 0.0;  ///< since the epoch
+  std::string topic;
+  std::string payload;
+};
+
+class Stack {
+ public:
+  /// Starts the broker.
+  Stack() { broker.start(); }
+
+  void start_service(const std::vector<std::string>& more_flags = {});
+  void await_ready() const;
+  void subscribe(const std::string& topic);
+
+  /// Runs `kidnapwatch` with these words against the broker, to its end; its one line of JSON.
+  Json robots(std::vector<std::string> words) const;
+  void publish(const std::string& topic, const std::string& payload) const;
+
+  /// By curl; the body, whatever the status.
+  [[nodiscard]] std::string get_text(const std::string& path) const;
+  [[nodiscard]] Json get(const std::string& path) const;
+  [[nodiscard]] int status_of(const std::string& path) const;
+  /// Scans counted by the service under this outcome, or under all.
+  [[nodiscard]] std::uint64_t counted(const std::string& outcome) const;
+  [[nodiscard]] std::uint64_t counted() const;
+
+  [[nodiscard]] std::vector<Received> received() const;
+  [[nodiscard]] std::string service_log() const { return content_of(folder_.path() / "serve.log"); }
+  [[nodiscard]] std::filesystem::path database() const { return folder_.path() / "store.db"; }
+
+  Mosquitto broker;
+  std::unique_ptr<Process> service;
+
+ private:
+  [[nodiscard]] std::string url() const;
+
+  TemporaryFolder folder_;
+  std::unique_ptr<Process> subscriber_;
+};
+
+}  // namespace kidnapwatch::test

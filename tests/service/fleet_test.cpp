@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many robots on few lanes: nothing is lost uncounted, and nobody starves.
+#include "service/fleet.hpp"
+
+#include <future>
+#include <numeric>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "tests/service/fake_world.hpp"
+
+namespace kidnapwatch::service {
+namespace {
+
+using core::Outcome;
+using test::round_room;
+
+core::Stamp fixed_now() { return test::at_s(1000.0); }
+
+class FleetTest : public ::testing::Test {
+ protected:
+  Fleet::Outside outside() {
+    return {.announcer = heard_,
+            .now = fixed_now,
+            .new_id = [](core::Stamp) { return std::string("id"); },
+            .log_refusal = [](const std::string&, const core::BadInput&) {},
+            .save_config = [this](const core::ConfigVersion& version) { save(version); }};
+  }
+  void save(const core::ConfigVersion& version) {
+    if (refuse_to_save_) {
+      throw std::runtime_error("disk full");
+    }
+    saved_.push_back(version);
+  }
+  std::uint64_t counted(const Fleet& fleet, Outcome outcome) {
+    core::ServiceStatus status;
+    fleet.describe(status);
+    return status.counts.at(static_cast<std::size_t>(outcome));
+  }
+
+  test::Heard heard_;
+  bool refuse_to_save_ = false;
+  std::vector<core::ConfigVersion> saved_;
+};
+
+TEST_F(FleetTest, CountsEveryMessageOfManyPublishersOnce) {
+  Fleet fleet({.lanes = 2, .queue_per_robot = 8}, outside(), test::with_threshold(60.0));
+  constexpr int kPublishers = 4;
+  constexpr int kScans = 200;
+  std::vector<std::thread> publishers;
+  for (int p = 0; p < kPublishers; ++p) {
+    publishers.emplace_back([&, p] {
+      for (int i = 0; i < kScans; ++i) {
+        const std::string robot = "r" + std::to_string((p + i) % 7);
+        fleet.receive(robot,
+                      test::message(i % 5 == 0 ? "garbage" : round_room(2.0, i), fixed_now()));
+      }
+    });
+  }
+  for (auto& publisher : publishers) {
+    publisher.join();
+  }
+  fleet.stop();
+  core::ServiceStatus status;
+  fleet.describe(status);
+  EXPECT_EQ(std::accumulate(status.counts.begin(), status.counts.end(), std::uint64_t{0}),
+            std::uint64_t{kPublishers * kScans});
+  EXPECT_EQ(status.robots, 7U);
+  EXPECT_EQ(status.queued_scans, 0U);
+}
+
+/// Holds the lane in the first alert or score until it is let go.
+class Held : public test::Heard {
+ public:
+  void announce_score(const std::string& robot, const core::Score& score,
+                      core::Stamp arrival) override {
+    Heard::announce_score(robot, score, arrival);
+    if (!std::exchange(holding_, true)) {
+      reached_.set_value();
+      let_go_.get_future().wait();
+    }
+  }
+  std::promise<void> reached_;
+  std::promise<void> let_go_;
+
+ private:
+  bool holding_ = false;
+};
+
+TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
+  Held held;
+  auto around = outside();
+  Fleet fleet({.lanes = 1, .queue_per_robot = 4},
+              {held, around.now, around.new_id, around.log_refusal, around.save_config},
+              test::with_threshold(60.0));
+  fleet.receive("loud", test::message(round_room(2.0, 1.0), fixed_now()));
+  fleet.receive("loud", test::message(round_room(2.0, 2.0), fixed_now()));
+  held.reached_.get_future().wait();  // the lane is busy with the second scan
+  for (int i = 3; i < 13; ++i) {
+    fleet.receive("loud", test::message(round_room(2.0, i), fixed_now()));
+  }
+  fleet.receive("calm", test::message(round_room(2.0, 1.0), fixed_now()));
+  held.let_go_.set_value();
+  fleet.stop();
+  EXPECT_EQ(counted(fleet, Outcome::overload), 6U);
+  EXPECT_EQ(held.scores().back().stamp, test::at_s(12.0));  // the newest are kept
+  EXPECT_EQ(held.scores()[1].reference, test::at_s(2.0));
+  EXPECT_EQ(held.scores()[1].stamp, test::at_s(9.0));
+  EXPECT_EQ(fleet.robot("calm")->counts.at(static_cast<std::size_t>(Outcome::first)), 1U);
+}
+
+TEST_F(FleetTest, RefusesStrangeNamesAndTooManyRobots) {
+  Fleet fleet({.lanes = 1, .max_robots = 2}, outside(), {});
+  for (const char* robot : {"a", "b", "c", "", "sp ace", "a/b"}) {
+    fleet.receive(robot, test::message(round_room(2.0, 1.0), fixed_now()));
+  }
+  fleet.count(Outcome::unknown_topic);
+  fleet.stop();
+  EXPECT_EQ(counted(fleet, Outcome::first), 2U);
+  EXPECT_EQ(counted(fleet, Outcome::too_many_robots), 1U);
+  EXPECT_EQ(counted(fleet, Outcome::bad_robot_id), 3U);
+  EXPECT_EQ(counted(fleet, Outcome::unknown_topic), 1U);
+  EXPECT_FALSE(fleet.robot("c"));
+}
+
+TEST_F(FleetTest, PutsAConfigurationOnlyOnceItIsSaved) {
+  Fleet fleet({.lanes = 1}, outside(), {});
+  core::DetectionConfig config;
+  config.threshold = 70.0;
+  EXPECT_EQ(fleet.put_config(config, 0, "me").version, 1);
+  EXPECT_EQ(saved_.at(0).config.threshold, 70.0);
+  EXPECT_THROW(fleet.put_config(config, 0, "late"), api::VersionConflict);
+  config.threshold = -1.0;
+  EXPECT_THROW(fleet.put_config(config, {}, "me"), core::BadInput);
+  refuse_to_save_ = true;
+  config.threshold = 80.0;
+  EXPECT_THROW(fleet.put_config(config, {}, "me"), std::runtime_error);
+  EXPECT_EQ(fleet.config().config.threshold, 70.0);
+}
+
+TEST_F(FleetTest, ResumesRobotsOfAnEarlierRun) {
+  Fleet fleet({.lanes = 1}, outside(), {});
+  fleet.resume("old", {.natural_scores = std::vector<double>(200, 10.0), .open_incident = {}});
+  EXPECT_EQ(fleet.robot("old")->calibration_pairs, 200U);
+  EXPECT_EQ(fleet.robot("old")->threshold, 10.0);
+}
+
+}  // namespace
+}  // namespace kidnapwatch::service

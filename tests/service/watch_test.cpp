@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// One robot's payloads become counts, scores, states and alerts.
+#include "service/watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/service/fake_world.hpp"
+
+namespace kidnapwatch::service {
+namespace {
+
+using core::Outcome;
+using test::round_room;
+
+class WatchTest : public ::testing::Test {
+ protected:
+  void send(const std::string& payload) { watch_.take(test::message(payload, now_)); }
+
+  void drive(double radius_m, int scans) {
+    for (int i = 0; i < scans; ++i) {
+      now_ = core::later_by_s(now_, 0.2);
+      send(round_room(radius_m, core::elapsed_s(core::Stamp{}, now_)));
+    }
+  }
+
+  std::uint64_t counted(Outcome outcome) {
+    return watch_.status().counts.at(static_cast<std::size_t>(outcome));
+  }
+
+  test::Heard heard_;
+  core::Stamp now_ = test::at_s(100.0);
+  int ids_ = 0;
+  std::shared_ptr<const core::ConfigVersion> config_ =
+      std::make_shared<const core::ConfigVersion>(test::with_threshold(60.0));
+  Surroundings around_{.announcer = heard_,
+                       .now = [this] { return now_; },
+                       .new_id = [this](core::Stamp) { return std::to_string(++ids_); },
+                       .config = [this] { return config_; },
+                       .log_refusal = [](const std::string&, const core::BadInput&) {},
+                       .payload = {.max_payload_bytes = 10'000}};
+  Watch watch_{"r1", around_};
+};
+
+TEST_F(WatchTest, RaisesOneIncidentWhenTheRoomChanges) {
+  drive(2.0, 3);
+  drive(6.0, 5);
+  const auto alerts = heard_.alerts();
+  ASSERT_EQ(alerts.size(), 1U);
+  EXPECT_EQ(alerts[0].type, core::AlertType::opened);
+  EXPECT_EQ(alerts[0].incident.robot, "r1");
+  EXPECT_EQ(alerts[0].incident.seq, 1U);
+  EXPECT_GT(alerts[0].incident.score, alerts[0].incident.threshold);
+  EXPECT_EQ(alerts[0].incident.threshold, 60.0);
+  EXPECT_EQ(watch_.status().incident_id, alerts[0].incident.id);
+  EXPECT_EQ(watch_.status().state, core::RobotState::kidnapped);
+  const auto evidence = heard_.evidence();
+  ASSERT_TRUE(evidence[0]);
+  EXPECT_NEAR(evidence[0]->before.ranges_m[0], 2.0, 0.02);
+  EXPECT_NEAR(evidence[0]->after.ranges_m[0], 6.0, 0.02);
+  EXPECT_EQ(heard_.states(),
+            (std::vector<std::string>{"r1 suspect", "r1 kidnapped"}));  // normal from the start
+}
+
+TEST_F(WatchTest, AnotherJumpUpdatesTheOpenIncidentAndRestResolvesIt) {
+  drive(2.0, 3);
+  drive(6.0, 3);
+  drive(3.0, 160);
+  const auto alerts = heard_.alerts();
+  ASSERT_EQ(alerts.size(), 3U);
+  EXPECT_EQ(alerts[1].type, core::AlertType::updated);
+  EXPECT_EQ(alerts[2].type, core::AlertType::resolved);
+  EXPECT_EQ(alerts[2].incident.id, alerts[0].incident.id);
+  EXPECT_EQ(alerts[2].incident.seq, 3U);
+  EXPECT_TRUE(alerts[2].incident.resolved_at);
+  EXPECT_FALSE(watch_.status().incident_id);
+  EXPECT_EQ(heard_.states().back(), "r1 normal");
+}
+
+TEST_F(WatchTest, CountsEveryKindOfBadScanUnderItsOwnReason) {
+  drive(2.0, 2);
+  send("\xff\x00garbage");
+  send(std::string(20'000, ' '));
+  const std::string good = round_room(2.0, 200.0);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string bad = good;
+    return bad.replace(bad.find(from), from.size(), to);
+  };
+  send(good.substr(0, good.find("\"ranges\"")) + "\"ranges\":[]}");
+  send(good.substr(0, good.find("\"ranges\"")) + "\"ranges\":\"far\"}");
+  send(with("\"angle_increment\":0.069778", "\"angle_increment\":0"));
+  send(with("\"angle_min\":0,", ""));
+  send(good.substr(0, good.find("\"ranges\"")) + "\"ranges\":[NaN,NaN,NaN]}");
+  drive(2.0, 1);
+  for (const auto once :
+       {Outcome::malformed, Outcome::too_large, Outcome::no_beams, Outcome::wrong_type,
+        Outcome::bad_geometry, Outcome::missing_field, Outcome::not_comparable, Outcome::first}) {
+    EXPECT_EQ(counted(once), 1U) << core::name(once);
+  }
+  EXPECT_EQ(counted(Outcome::scored), 2U);
+}
+
+TEST_F(WatchTest, TellsOnceThatARobotFellSilentAndOnceThatItIsBack) {
+  drive(2.0, 2);
+  now_ = core::later_by_s(now_, 4.9);
+  watch_.tick();
+  now_ = core::later_by_s(now_, 0.2);
+  watch_.tick();
+  watch_.tick();
+  drive(2.0, 2);
+  EXPECT_EQ(heard_.states(), (std::vector<std::string>{"r1 stale", "r1 normal"}));
+}
+
+TEST_F(WatchTest, ANewConfigurationTakesEffectWithTheNextScan) {
+  drive(2.0, 3);
+  auto changed = test::with_threshold(1e6);
+  changed.version = 7;
+  config_ = std::make_shared<const core::ConfigVersion>(changed);
+  drive(6.0, 3);
+  EXPECT_TRUE(heard_.alerts().empty());
+  EXPECT_EQ(watch_.status().threshold, 1e6);
+}
+
+TEST_F(WatchTest, ResumesAnOpenIncident) {
+  core::Incident open{.id = "before", .robot = "r1", .seq = 4};
+  watch_.resume({.natural_scores = {}, .open_incident = open});
+  EXPECT_EQ(watch_.status().incident_id, "before");
+  drive(2.0, 160);
+  ASSERT_EQ(heard_.alerts().size(), 1U);
+  EXPECT_EQ(heard_.alerts()[0].type, core::AlertType::resolved);
+  EXPECT_EQ(heard_.alerts()[0].incident.seq, 5U);
+}
+
+}  // namespace
+}  // namespace kidnapwatch::service
