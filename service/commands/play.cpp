@@ -64,13 +64,18 @@ class Stage {
     }
   }
 
-  Played play(const std::function<void(const std::string&, core::Stamp)>& on_kidnap) {
+  Played play(double span_s,
+              const std::function<void(const std::string&, core::Stamp)>& on_kidnap) {
     const auto began = Clock::now();
-    const auto first = due_.empty() ? core::Stamp{} : due_.top().outgoing.scan.stamp;
+    const auto now =
+        std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
+    const auto start = core::later_by_s(now, -span_s * (1.0 - 1.0 / options_.speed));
     while (!due_.empty() && !stop_signal_came()) {
-      const Due next = due_.top();
+      Due next = due_.top();
       due_.pop();
-      const double at_s = core::elapsed_s(first, next.outgoing.scan.stamp) / options_.speed;
+      const auto since_start = next.outgoing.scan.stamp.time_since_epoch();
+      const double at_s = std::chrono::duration<double>(since_start).count() / options_.speed;
+      next.outgoing.scan.stamp = start + since_start;
       const auto due =
           began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(at_s));
       std::this_thread::sleep_until(due);
@@ -151,10 +156,10 @@ void PlayOptions::add_to(CLI::App& command) {
       ->check(CLI::Range(0.001, 1e6));
 }
 
-Played play(std::vector<Player> players, const PlayOptions& options,
+Played play(std::vector<Player> players, const PlayOptions& options, double span_s,
             const std::function<void(const std::string& robot, core::Stamp)>& on_kidnap) {
   hold_back_stop_signals();
-  return Stage(std::move(players), options).play(on_kidnap);
+  return Stage(std::move(players), options).play(span_s, on_kidnap);
 }
 
 std::string to_json(const Played& played) {

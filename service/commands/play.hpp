@@ -32,7 +32,7 @@ struct PlayOptions {
 
 /// One scan on its way to the broker.
 struct Outgoing {
-  core::Scan scan;
+  core::Scan scan;         ///< its stamp counts from 1970 as from the start of the play
   bool kidnapped = false;  ///< the first one elsewhere
 };
 
@@ -50,10 +50,11 @@ struct Played {
   double latest_s = 0.0;  ///< how far behind its time the latest scan was published
 };
 
-/// Publishes each scan when its stamp is due, in order of stamps over all robots, until all are
-/// done or SIGTERM or SIGINT comes. `on_kidnap` is told of each kidnapping as its scan is
-/// published.
-Played play(std::vector<Player> players, const PlayOptions& options,
+/// Publishes each scan when it is due, in order of stamps over all robots, until all are done or
+/// SIGTERM or SIGINT comes. Stamps begin now; played faster than the clock they end when the play
+/// does, if it lasts `span_s` (of stamps), so that none is in the future. `on_kidnap` is told of
+/// each kidnapping as its scan is published.
+Played play(std::vector<Player> players, const PlayOptions& options, double span_s,
             const std::function<void(const std::string& robot, core::Stamp)>& on_kidnap);
 
 /// {"scans":...}: one line of JSON.

@@ -62,11 +62,10 @@ std::vector<evaluation::Cut> cuts_of(const ReplayOptions& options,
   return cuts;
 }
 
-/// A spliced run, played from `start` on: once, or again and again with its stamps going on.
+/// A spliced run, played once, or again and again with its stamps going on.
 class Tape {
  public:
-  Tape(evaluation::Spliced run, bool loop, core::Stamp start)
-      : run_(std::move(run)), loop_(loop), start_(start) {}
+  Tape(evaluation::Spliced run, bool loop) : run_(std::move(run)), loop_(loop) {}
 
   std::optional<Outgoing> next() {
     const auto& scans = run_.recording.scans;
@@ -86,7 +85,7 @@ class Tape {
  private:
   evaluation::Spliced run_;
   bool loop_;
-  core::Stamp start_;
+  core::Stamp start_{};
   std::size_t at_ = 0;
 };
 
@@ -102,19 +101,15 @@ int replay(const ReplayOptions& options) {
   for (const auto& cut : cuts) {
     std::fprintf(stderr, "cut: at %.1f s to where the log is at %.1f s\n", cut.at_s, cut.to_s);
   }
-  const auto now =
-      std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
   auto run = evaluation::splice(log.recording, cuts);
   const auto& scans = run.recording.scans;
   const double span_s = core::elapsed_s(scans.front().scan.stamp, scans.back().scan.stamp);
-  // Played faster than the clock, the log ends now: no stamp is in the future.
-  const auto start = core::later_by_s(now, -span_s * (1.0 - 1.0 / options.play.speed));
-  const auto tape = std::make_shared<Tape>(std::move(run), options.loop, start);
+  const auto tape = std::make_shared<Tape>(std::move(run), options.loop);
   const auto on_kidnap = [](const std::string& robot, core::Stamp stamp) {
     std::cerr << "kidnapped " << robot << " stamp_ns " << core::ns_since_epoch(stamp) << '\n';
   };
   const Played played =
-      play({{options.robot, [tape] { return tape->next(); }}}, options.play, on_kidnap);
+      play({{options.robot, [tape] { return tape->next(); }}}, options.play, span_s, on_kidnap);
   std::cout << to_json(played) << '\n';
   return played.unsent == 0 ? kOk : kFailed;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `simulate`: robots that tour simulated worlds, and are kidnapped now and then.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -87,15 +86,11 @@ std::string robot_name(const std::string& name, std::size_t number) {
 
 std::vector<Player> fleet(const SimulateOptions& options) {
   static const std::array<sim::World, 2> kWorlds{sim::corridor_world(), sim::room_world()};
-  const auto now =
-      std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
   const double step_s = 1.0 / options.rate_hz;
-  // Played faster than the clock, the tour ends now: no stamp is in the future.
-  const double ahead_s = options.duration_s * (1.0 - 1.0 / options.play.speed);
   std::vector<Player> players;
   for (std::size_t i = 0; i < options.robots; ++i) {
     const double phase = static_cast<double>(i) / static_cast<double>(options.robots);
-    const auto start = core::later_by_s(now, phase * step_s - ahead_s);
+    const auto start = core::later_by_s(core::Stamp{}, (phase - 1.0) * step_s);
     const auto robot = std::make_shared<Robot>(kWorlds.at(i % kWorlds.size()), options, i, start);
     players.push_back({robot_name(options.name, i + 1), [robot] { return robot->next(); }});
   }
@@ -116,7 +111,7 @@ int simulate(const SimulateOptions& options) {
           << "}\n"
           << std::flush;
   };
-  const Played played = play(fleet(options), options.play, on_kidnap);
+  const Played played = play(fleet(options), options.play, options.duration_s, on_kidnap);
   std::cout << to_json(played) << '\n';
   return played.unsent == 0 ? kOk : kFailed;
 }
