@@ -56,9 +56,9 @@ std::string link_with(const Call& call, const std::string& parameter, const std:
   return link;
 }
 
-Response ok(const adapters::codecs::Json& body) {
-  return {200, "application/json", adapters::codecs::text(body)};
-}
+Response ok_text(std::string json) { return {200, "application/json", std::move(json)}; }
+
+Response ok(const adapters::codecs::Json& body) { return ok_text(adapters::codecs::text(body)); }
 
 void link_next(Response& response, const std::string& link) {
   response.headers.push_back({"Link", "<" + link + ">; rel=\"next\""});

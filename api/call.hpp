@@ -42,7 +42,8 @@ inline constexpr std::size_t kDefaultPage = 100;
 [[nodiscard]] std::string link_with(const Call& call, const std::string& parameter,
                                     const std::string& value);
 
-/// 200, application/json.
+/// 200, application/json; ok_text for JSON that is text already.
+[[nodiscard]] Response ok_text(std::string json);
 [[nodiscard]] Response ok(const adapters::codecs::Json& body);
 
 /// Adds the address of the next page as RFC 8288 has it.

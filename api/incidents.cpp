@@ -9,6 +9,7 @@
 namespace kidnapwatch::api {
 namespace {
 
+using adapters::codecs::evidence_json;
 using adapters::codecs::json;
 using adapters::codecs::Json;
 
@@ -64,7 +65,7 @@ Response get_incident(const Call& call) {
 
 Response get_evidence(const Call& call) {
   const auto evidence = call.ports.history.evidence(call.id);
-  return evidence ? ok(json(*evidence))
+  return evidence ? ok_text(evidence_json(*evidence))
                   : problem(404, "no evidence is kept of an incident " + call.id);
 }
 

@@ -13,9 +13,7 @@ Response get_service(const Call& call) {
   return ok(adapters::codecs::json(call.ports.fleet.status()));
 }
 
-Response get_openapi(const Call& /*call*/) {
-  return {200, "application/json", std::string(openapi_json())};
-}
+Response get_openapi(const Call& /*call*/) { return ok_text(std::string(openapi_json())); }
 
 Response get_health(const Call& /*call*/) { return ok({{"status", "ok"}}); }
 

@@ -6,52 +6,10 @@
 #include <charconv>
 
 #include "adapters/codecs/rfc3339.hpp"
+#include "adapters/codecs/scan_encode.hpp"
 
 namespace kidnapwatch::adapters::codecs {
 namespace {
-
-Json ros_stamp(core::Stamp stamp) {
-  const auto sec = std::chrono::floor<std::chrono::seconds>(stamp);
-  return {{"sec", sec.time_since_epoch().count()}, {"nanosec", (stamp - sec).count()}};
-}
-
-/// The double whose shortest text is the float's: 1.2f becomes 1.2, not 1.2000000476837158. Halves
-/// the size of evidence and still reads back as the same float.
-double shortest(float value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  double result = 0.0;
-  std::from_chars(text.data(), end, result);
-  return result;
-}
-
-Json ranges(const std::vector<float>& ranges_m) {
-  Json array = Json::array();
-  for (const float range_m : ranges_m) {
-    array.push_back(std::isfinite(range_m) ? Json(shortest(range_m)) : Json(nullptr));
-  }
-  return array;
-}
-
-Json json(const core::Pose& pose) {
-  return {{"x", pose.x_m}, {"y", pose.y_m}, {"theta", pose.theta_rad}};
-}
-
-Json json(const core::Scan& scan) {
-  const auto& geometry = scan.geometry;
-  const auto steps = static_cast<double>(scan.ranges_m.size()) - 1.0;
-  Json object{{"header", {{"stamp", ros_stamp(scan.stamp)}}},
-              {"angle_min", geometry.angle_min_rad},
-              {"angle_max", geometry.angle_min_rad + steps * geometry.angle_increment_rad},
-              {"angle_increment", geometry.angle_increment_rad},
-              {"range_min", geometry.range_min_m},
-              {"range_max", geometry.range_max_m},
-              {"ranges", ranges(scan.ranges_m)}};
-  if (scan.odometry) {
-    object["odom"] = json(*scan.odometry);
-  }
-  return object;
-}
 
 std::string number(double value) {
   std::array<char, 32> text{};
@@ -99,14 +57,16 @@ Json json(const core::Incident& incident) {
   return object;
 }
 
-Json json(const core::Evidence& evidence) {
+std::string evidence_json(const core::Evidence& evidence) {
   Json scores = Json::array();
   for (const auto& score : evidence.scores) {
     scores.push_back(json(score));
   }
-  return {{"before", json(evidence.scans.before)},
-          {"after", json(evidence.scans.after)},
-          {"scores", std::move(scores)}};
+  std::string json_text = R"({"before":)";
+  append_json(json_text, evidence.scans.before);
+  json_text += R"(,"after":)";
+  append_json(json_text, evidence.scans.after);
+  return json_text + R"(,"scores":)" + text(scores) + "}";
 }
 
 std::string scores_csv(std::span<const core::Score> scores) {

@@ -17,9 +17,9 @@ namespace kidnapwatch::adapters::codecs {
 
 [[nodiscard]] Json json(const core::Incident& incident);
 
-/// Both scans as sensor_msgs/LaserScan, with null for a beam that is NaN or infinite, and the
-/// scores.
-[[nodiscard]] Json json(const core::Evidence& evidence);
+/// As text: both scans as sensor_msgs/LaserScan, with null for a beam that is NaN or infinite, and
+/// the scores.
+[[nodiscard]] std::string evidence_json(const core::Evidence& evidence);
 
 /// RFC 4180, a header line with the names of json(Score) first. An absent threshold is empty.
 [[nodiscard]] std::string scores_csv(std::span<const core::Score> scores);

@@ -44,11 +44,6 @@ inline std::string object_misfit(const Json& document, const Json& schema, const
     if (const auto wrong = misfit(document, inner, member); !wrong.empty()) {
       return name + ": " + wrong;
     }
-    if (schema.contains("propertyNames")) {
-      if (const auto wrong = misfit(document, schema["propertyNames"], name); !wrong.empty()) {
-        return name + " as a name: " + wrong;
-      }
-    }
   }
   return "";
 }

@@ -70,11 +70,12 @@ TEST(HistoryJson, SpellsScansAsLaserScanWithNullForMisses) {
                            .ranges_m = {1.2F, inf, nan, -inf, 0.0F},
                            .odometry = core::Pose{1.0, 2.0, 0.5}};
   evidence.scores = {score()};
-  const Json spelled = json(evidence);
-  EXPECT_EQ(text(spelled["before"]),
-            R"({"header":{"stamp":{"sec":-1,"nanosec":999999999}},"angle_min":-1.0,)"
-            R"("angle_max":1.0,"angle_increment":0.5,"range_min":0.12,"range_max":3.5,)"
-            R"("ranges":[1.2,null,null,null,0.0],"odom":{"x":1.0,"y":2.0,"theta":0.5}})");
+  const Json spelled = parsed(evidence_json(evidence), "evidence");
+  EXPECT_EQ(
+      text(spelled["before"]),
+      R"({"header":{"stamp":{"sec":-1,"nanosec":999999999},"frame_id":"laser"},"angle_min":-1,)"
+      R"("angle_max":1,"angle_increment":0.5,"range_min":0.12,"range_max":3.5,)"
+      R"("ranges":[1.2,null,null,null,0],"odom":{"x":1,"y":2,"theta":0.5}})");
   EXPECT_FALSE(spelled["after"].contains("odom"));
   EXPECT_EQ(spelled["scores"], Json::array({json(score())}));
 }
@@ -84,7 +85,7 @@ TEST(HistoryJson, WritesRangesThatReadBackAsTheSameFloats) {
   for (float range_m = 0.001F; range_m < 100.0F; range_m *= 1.37F) {
     evidence.scans.after.ranges_m.push_back(range_m);
   }
-  const auto read = parsed(text(json(evidence)), "evidence")["after"]["ranges"];
+  const auto read = parsed(evidence_json(evidence), "evidence")["after"]["ranges"];
   EXPECT_EQ(read.get<std::vector<float>>(), evidence.scans.after.ranges_m);
 }
 
