@@ -19,8 +19,8 @@ struct ServerConfig {
   std::uint16_t port = 8080;          ///< 0: any free one
   std::size_t threads = 1;            ///< that answer requests
   std::size_t max_connections = 256;  ///< beyond: 503
-  std::uint32_t max_header_bytes = 8 * 1024;
-  std::uint64_t max_body_bytes = 64 * 1024;
+  std::uint32_t max_header_bytes = 8'192;
+  std::uint64_t max_body_bytes = 65'536;
   std::chrono::milliseconds header_timeout{5'000};  ///< from its first byte to its last
   std::chrono::milliseconds body_timeout{10'000};   ///< of a request
   std::chrono::milliseconds write_timeout{10'000};  ///< of a response
