@@ -19,4 +19,8 @@ enum class NonFinite : std::uint8_t {
 /// finite number reads back as it was.
 void append_json(std::string& out, const core::Scan& scan, NonFinite non_finite = NonFinite::null);
 
+/// Appends the same fields in CBOR, the ranges as a typed array (RFC 8746, tag 85). Every number,
+/// NaN and infinities included, reads back as it was.
+void append_cbor(std::string& out, const core::Scan& scan);
+
 }  // namespace kidnapwatch::adapters::codecs

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "adapters/codecs/scan_cbor.hpp"
 #include "adapters/codecs/scan_json.hpp"
 
 namespace kidnapwatch::adapters::codecs {
@@ -84,11 +85,10 @@ void ScanDecoder::decode(std::string_view payload, std::string_view content_type
   if (dialect == Dialect::automatic) {
     dialect = dialect_of_payload(payload);
   }
-  if (dialect == Dialect::cbor) {
-    throw_malformed("payload", "is CBOR, which is not read yet");
-  }
-  nulls_ +=
-      read_scan_json(json_->payload, without_byte_order_mark(payload), config_.null_range, scan);
+  nulls_ += dialect == Dialect::cbor
+                ? read_scan_cbor(payload, config_.null_range, scan)
+                : read_scan_json(json_->payload, without_byte_order_mark(payload),
+                                 config_.null_range, scan);
 }
 
 }  // namespace kidnapwatch::adapters::codecs
