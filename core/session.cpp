@@ -80,6 +80,7 @@ std::optional<Outcome> Session::refusal(const Scan& scan) {
     reference_.reset();
     suspicion_.reset();
     quiet_since_.reset();
+    last_score_ = 0.0;
   }
   old_stamps_ = 0;
   return is_comparable(scan) ? std::nullopt : std::optional(Outcome::not_comparable);
@@ -171,6 +172,7 @@ void Session::configure(const DetectionConfig& config) {
   } else {
     calibration_ = Calibration(config.calibration);
     suspicion_.reset();
+    last_score_ = 0.0;
   }
   config_ = config;
 }

@@ -135,7 +135,7 @@ class Session {
   std::optional<Stamp> arrival_;  // of any scan
   bool incident_open_ = false;
   std::optional<Stamp> quiet_since_;  // in an open incident: since when there was no jump
-  double last_score_ = 0.0;           // of the pair before
+  double last_score_ = 0.0;           // of the pair before; 0 where there was none
   std::size_t old_stamps_ = 0;        // out of order in a row
   Stamp last_old_stamp_{};
 };

@@ -15,17 +15,16 @@
 namespace kidnapwatch::core {
 namespace {
 
-/// V where one sample or both do not vary, so that the statistic itself is undefined.
-double degenerate_statistic(double variance_a, double variance_b) {
-  return variance_a == variance_b ? 0.0 : std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Asked of the values: the variance of equal ones may be 1e-34 where their mean was rounded.
+bool varies(std::span<const double> sample) {
+  return std::ranges::any_of(sample, [&](double value) { return value != sample.front(); });
 }
 
 double bartlett(std::span<const double> a, std::span<const double> b) {
   const double var_a = moments(a).variance;
   const double var_b = moments(b).variance;
-  if (var_a == 0.0 || var_b == 0.0) {
-    return degenerate_statistic(var_a, var_b);
-  }
   const double dof_a = static_cast<double>(a.size()) - 1.0;
   const double dof_b = static_cast<double>(b.size()) - 1.0;
   const double dof = dof_a + dof_b;
@@ -68,8 +67,8 @@ double levene(VarianceTest test, std::span<const double> a, std::span<const doub
   const double between =
       n_a * (z_a.mean - grand) * (z_a.mean - grand) + n_b * (z_b.mean - grand) * (z_b.mean - grand);
   const double within = (n_a - 1.0) * z_a.variance + (n_b - 1.0) * z_b.variance;
-  if (within == 0.0) {
-    return degenerate_statistic(moments(a).variance, moments(b).variance);
+  if (within == 0.0) {  // all values of a group are equally far from its centre
+    return between == 0.0 ? 0.0 : kInfinity;
   }
   return (n_a + n_b - 2.0) * between / within;
 }
@@ -78,6 +77,9 @@ double levene(VarianceTest test, std::span<const double> a, std::span<const doub
 
 double variance_statistic(VarianceTest test, std::span<const double> a, std::span<const double> b) {
   assert(a.size() >= 2 && b.size() >= 2);
+  if (!varies(a) || !varies(b)) {
+    return varies(a) == varies(b) ? 0.0 : kInfinity;
+  }
   return test == VarianceTest::bartlett ? bartlett(a, b) : levene(test, a, b);
 }
 
