@@ -305,6 +305,40 @@ TEST(Client, ShowsItsPassword) {
   const Connected friendly(config);
 }
 
+/// Keys and certificates in `folder`: an authority's (ca), and 127.0.0.1's by it (broker).
+void make_certificates(const std::filesystem::path& folder) {
+  const std::string command =
+      "cd " + folder.string() +
+      " && exec >openssl.log 2>&1"
+      " && openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2"
+      "    -subj /CN=ca -keyout ca.key -out ca.crt"
+      " && openssl req -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -subj /CN=127.0.0.1"
+      "    -keyout broker.key -out broker.csr"
+      " && printf 'subjectAltName=IP:127.0.0.1' >san"
+      " && openssl x509 -req -in broker.csr -CA ca.crt -CAkey ca.key -CAcreateserial -days 2"
+      "    -extfile san -out broker.crt";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(Client, SpeaksTlsWithABrokerItTrusts) {
+  Mosquitto broker;
+  make_certificates(broker.folder());
+  std::ofstream(broker.folder() / "mosquitto.conf", std::ios::app)
+      << "certfile " << (broker.folder() / "broker.crt").string() << "\nkeyfile "
+      << (broker.folder() / "broker.key").string() << "\n";
+  broker.start();
+  ClientConfig config = subscribed("mqtts://127.0.0.1:" + std::to_string(broker.port()));
+  Inbox inbox;
+  Client suspicious(config, inbox.events());
+  suspicious.start();
+  EXPECT_TRUE(inbox.wait_trouble("connecting"));
+  config.broker.ca_file = broker.folder() / "ca.crt";
+  Connected trusting(config);
+  trusting.client.publish(message("a", "secret"));
+  EXPECT_TRUE(trusting.inbox.wait_payload("secret"));
+  EXPECT_FALSE(suspicious.connected());
+}
+
 /// A broker of 2015: refuses MQTT 5 as version 3.1.1 says, and accepts 3.1.1.
 class OldBroker {
  public:
