@@ -2,87 +2,95 @@
 // Algorithm 3 (QS-2DDTW) and its five siblings.
 #include "core/dissimilarity.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <initializer_list>
-
-#include "core/dtw.hpp"
-#include "core/moments.hpp"
+#include <span>
 
 namespace kidnapwatch::core {
 namespace {
 
 constexpr double kNoSpread = 1e-9;  // a smaller standard deviation is rounding, not spread
 
-using Axis = std::span<const double>;
-struct AxisPair {
-  Axis before;
-  Axis now;
-};
-
-/// Algorithm 3, line 4, on one axis.
-bool opens(Gate gate, double statistic, double critical) {
-  return statistic < critical && (gate == Gate::homogeneous || statistic > 1.0);
+double statistic(VarianceTest test, std::span<const double> a, const Moments& of_a,
+                 std::span<const double> b, const Moments& of_b) {
+  return test == VarianceTest::bartlett ? bartlett_statistic(of_a, a.size(), of_b, b.size())
+                                        : variance_statistic(test, a, b);
 }
 
-bool is_to_be_standardized(std::initializer_list<AxisPair> axes,
-                           const DissimilarityConfig& config) {
+/// Algorithm 3, line 4.
+bool is_to_be_standardized(const Sample& before, const Sample& now,
+                           const DissimilarityConfig& config, CriticalValues& critical_values) {
   if (config.gate == Gate::never || config.gate == Gate::always) {
     return config.gate == Gate::always;
   }
-  const auto& any = *axes.begin();
-  const double critical = critical_value(config.significance, any.before.size() + any.now.size());
-  for (const auto& axis : axes) {
-    const double v = variance_statistic(config.variance_test, axis.before, axis.now);
-    if (!opens(config.gate, v, critical)) {
-      return false;
-    }
+  const double low = config.gate == Gate::paper ? 1.0 : -1.0;
+  const auto test = config.variance_test;
+  const bool flat = config.dimension == Dimension::ranges;
+  const double v_x = statistic(test, before.values.x, before.x, now.values.x, now.x);
+  const double v_y = flat ? v_x : statistic(test, before.values.y, before.y, now.values.y, now.y);
+  if (std::min(v_x, v_y) <= low) {
+    return false;
   }
-  return true;
+  return std::max(v_x, v_y) < critical_values.at(config.significance, before.size() + now.size());
 }
 
-/// (value - mean) / standard deviation, in place; only centred where nothing varies.
-/// Algorithm 1, lines 1-2.
-void standardize(std::vector<double>& axis) {
-  const Moments m = moments(axis);
-  const double sd = std::sqrt(m.variance);
+/// (value - mean) / standard deviation; only centred where nothing varies. Algorithm 1, lines 1-2.
+void standardize(const std::vector<double>& axis, const Moments& moments,
+                 std::vector<double>& standardized) {
+  const double sd = std::sqrt(moments.variance);
   const double scale = sd < kNoSpread ? 1.0 : 1.0 / sd;
-  for (double& value : axis) {
-    value = (value - m.mean) * scale;
-  }
+  standardized.resize(axis.size());
+  std::ranges::transform(axis, standardized.begin(),
+                         [&](double value) { return (value - moments.mean) * scale; });
 }
 
-Dissimilarity with_cost(double cost, std::size_t steps, bool standardized) {
-  return {cost, cost / static_cast<double>(steps), standardized};
+const Cloud& standardized(const Sample& sample, Cloud& memory) {
+  standardize(sample.values.x, sample.x, memory.x);
+  standardize(sample.values.y, sample.y, memory.y);
+  return memory;
 }
 
-Dissimilarity of_points(Cloud before, Cloud now, const DissimilarityConfig& config) {
-  const bool standardized = is_to_be_standardized({{before.x, now.x}, {before.y, now.y}}, config);
-  if (standardized) {
-    for (auto* axis : {&before.x, &before.y, &now.x, &now.y}) {
-      standardize(*axis);
-    }
-  }
-  return with_cost(dtw_cost(before, now), before.size() + now.size(), standardized);
-}
-
-Dissimilarity of_ranges(std::vector<double> before, std::vector<double> now,
-                        const DissimilarityConfig& config) {
-  const bool standardized = is_to_be_standardized({{before, now}}, config);
-  if (standardized) {
-    standardize(before);
-    standardize(now);
-  }
-  return with_cost(dtw_cost(before, now), before.size() + now.size(), standardized);
+double cost(const Cloud& before, const Cloud& now, const DissimilarityConfig& config,
+            DtwWorkspace& workspace) {
+  return config.dimension == Dimension::points
+             ? dtw_cost(before, now, config.precision, workspace)
+             : dtw_cost(before.x, now.x, config.precision, workspace);
 }
 
 }  // namespace
 
+void prepare(const Scan& scan, const DissimilarityConfig& config, Bearings& bearings,
+             Sample& sample) {
+  if (config.dimension == Dimension::points) {
+    project(scan, config.invalid, bearings, sample.values);
+    sample.y = moments(sample.values.y);
+  } else {
+    keep_ranges(scan, config.invalid, sample.values.x);
+    sample.values.y.clear();
+  }
+  sample.x = moments(sample.values.x);
+}
+
+Dissimilarity dissimilarity(const Sample& before, const Sample& now,
+                            const DissimilarityConfig& config, DissimilarityWorkspace& workspace) {
+  Dissimilarity result;
+  result.standardized = is_to_be_standardized(before, now, config, workspace.critical_values);
+  result.cost = result.standardized ? cost(standardized(before, workspace.before),
+                                           standardized(now, workspace.now), config, workspace.dtw)
+                                    : cost(before.values, now.values, config, workspace.dtw);
+  result.cost_per_beam = result.cost / static_cast<double>(before.size() + now.size());
+  return result;
+}
+
 Dissimilarity dissimilarity(const Scan& before, const Scan& now,
                             const DissimilarityConfig& config) {
-  return config.dimension == Dimension::points
-             ? of_points(cloud(before, config.invalid), cloud(now, config.invalid), config)
-             : of_ranges(kept_ranges(before, config.invalid), kept_ranges(now, config.invalid),
-                         config);
+  Bearings bearings;
+  Sample sample_before;
+  Sample sample_now;
+  prepare(before, config, bearings, sample_before);
+  prepare(now, config, bearings, sample_now);
+  DissimilarityWorkspace workspace;
+  return dissimilarity(sample_before, sample_now, config, workspace);
 }
 
 std::string_view detector_name(const DissimilarityConfig& config) {

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "core/cloud.hpp"
+#include "core/dtw_kernel.hpp"
+#include "core/moments.hpp"
 #include "core/variance.hpp"
 
 namespace kidnapwatch::core {
@@ -28,6 +30,7 @@ struct DissimilarityConfig {
   VarianceTest variance_test = VarianceTest::bartlett;
   double significance = 0.05;
   InvalidPolicy invalid = InvalidPolicy::drop;
+  Precision precision = Precision::f32;
 
   friend bool operator==(const DissimilarityConfig&, const DissimilarityConfig&) = default;
 };
@@ -40,7 +43,34 @@ struct Dissimilarity {
   friend bool operator==(const Dissimilarity&, const Dissimilarity&) = default;
 };
 
-/// Algorithm 3. Both scans are comparable (is_comparable).
+/// A scan made ready to be compared any number of times.
+struct Sample {
+  Cloud values;  ///< the points; for Dimension::ranges the ranges in x, and nothing in y
+  Moments x;     ///< of values.x
+  Moments y;     ///< of values.y, if there are any
+
+  [[nodiscard]] std::size_t size() const noexcept { return values.x.size(); }
+};
+
+/// Makes `sample`, whose memory is reused, of a comparable scan (is_comparable).
+void prepare(const Scan& scan, const DissimilarityConfig& config, Bearings& bearings,
+             Sample& sample);
+
+/// Memory for comparing, for one thread at a time; any number of robots can share it. Nothing is
+/// allocated once it has seen the largest scan.
+struct DissimilarityWorkspace {
+  DtwWorkspace dtw;
+  CriticalValues critical_values;
+  Cloud before;  // standardised
+  Cloud now;
+};
+
+/// Algorithm 3, for samples prepared with this `config`.
+[[nodiscard]] Dissimilarity dissimilarity(const Sample& before, const Sample& now,
+                                          const DissimilarityConfig& config,
+                                          DissimilarityWorkspace& workspace);
+
+/// The same from scratch. Both scans are comparable.
 [[nodiscard]] Dissimilarity dissimilarity(const Scan& before, const Scan& now,
                                           const DissimilarityConfig& config);
 

@@ -55,29 +55,30 @@ void Session::resume(std::span<const double> natural_scores, bool incident_open,
   arrival_ = now;
 }
 
-Observation Session::observe(Scan scan, Stamp arrival) {
+Observation Session::observe(Scan& scan, Stamp arrival, DissimilarityWorkspace& workspace) {
   arrival_ = arrival;
   if (const auto outcome = refusal(scan)) {
     return {*outcome, {}};
   }
-  if (!reference_) {
-    reference_ = std::move(scan);
-    return {Outcome::first, {}};
+  prepare(scan, config_.dissimilarity, bearings_, sample_);
+  Observation seen{Outcome::first, {}};
+  if (std::exchange(has_reference_, true)) {
+    seen = {Outcome::scored, judge(scan, workspace)};
   }
-  const Verdict verdict = judge(scan);
-  reference_ = std::move(scan);
-  return {Outcome::scored, verdict};
+  std::swap(reference_, scan);
+  std::swap(reference_sample_, sample_);
+  return seen;
 }
 
 std::optional<Outcome> Session::refusal(const Scan& scan) {
-  if (reference_ && scan.stamp == reference_->stamp) {
+  if (has_reference_ && scan.stamp == reference_.stamp) {
     return Outcome::repeated;
   }
-  if (reference_ && scan.stamp < reference_->stamp) {
+  if (has_reference_ && scan.stamp < reference_.stamp) {
     if (!clock_was_set_back(scan.stamp)) {
       return Outcome::out_of_order;
     }
-    reference_.reset();
+    has_reference_ = false;
     suspicion_.reset();
     quiet_since_.reset();
     last_score_ = 0.0;
@@ -93,15 +94,15 @@ bool Session::clock_was_set_back(Stamp stamp) {
   return old_stamps_ >= config_.resync_scans;
 }
 
-Verdict Session::judge(const Scan& scan) {
+Verdict Session::judge(const Scan& scan, DissimilarityWorkspace& workspace) {
   Verdict verdict;
   Score& score = verdict.score;
   score.stamp = scan.stamp;
-  score.reference = reference_->stamp;
-  score.dissimilarity = dissimilarity(*reference_, scan, config_.dissimilarity);
+  score.reference = reference_.stamp;
+  score.dissimilarity = dissimilarity(reference_sample_, sample_, config_.dissimilarity, workspace);
   score.threshold = threshold();
   if (score.threshold) {
-    verdict.change = advance(scan, score.dissimilarity.cost, *score.threshold);
+    verdict.change = advance(scan, score.dissimilarity.cost, *score.threshold, workspace);
   } else {
     learn(score.dissimilarity.cost);
   }
@@ -110,24 +111,26 @@ Verdict Session::judge(const Scan& scan) {
   return verdict;
 }
 
-std::optional<EpisodeChange> Session::advance(const Scan& scan, double score, double threshold) {
-  if (suspicion_ && stands_out(scan, score, threshold)) {
+std::optional<EpisodeChange> Session::advance(const Scan& scan, double score, double threshold,
+                                              DissimilarityWorkspace& workspace) {
+  if (suspicion_ && stands_out(score, threshold, workspace)) {
     return alarm();
   }
   dismiss_suspicion();
   if (score > threshold) {
-    suspicion_ = Suspicion{Jump{{*reference_, scan}, score, threshold}, last_score_};
+    suspicion_ =
+        Suspicion{Jump{{reference_, scan}, score, threshold}, reference_sample_, last_score_};
     return std::nullopt;
   }
   learn(score);
   return rest(scan.stamp);
 }
 
-bool Session::stands_out(const Scan& scan, double score, double threshold) const {
-  const Jump& jump = suspicion_->jump;
-  const double around = std::max(suspicion_->before, score);
-  return jump.score > kOutstanding * around &&
-         dissimilarity(jump.scans.before, scan, config_.dissimilarity).cost > threshold;
+bool Session::stands_out(double score, double threshold, DissimilarityWorkspace& workspace) {
+  const double around = std::max(suspicion_->score_before, score);
+  return suspicion_->jump.score > kOutstanding * around &&
+         dissimilarity(suspicion_->before_jump, sample_, config_.dissimilarity, workspace).cost >
+             threshold;
 }
 
 EpisodeChange Session::alarm() {
@@ -173,6 +176,9 @@ void Session::configure(const DetectionConfig& config) {
     calibration_ = Calibration(config.calibration);
     suspicion_.reset();
     last_score_ = 0.0;
+    if (has_reference_) {
+      prepare(reference_, config.dissimilarity, bearings_, reference_sample_);
+    }
   }
   config_ = config;
 }

@@ -85,11 +85,12 @@ class Session {
   /// an incident was open.
   void resume(std::span<const double> natural_scores, bool incident_open, Stamp now);
 
-  /// Takes the robot's next scan, which passed check(), arriving at `arrival`. Repeated, older and
+  /// Takes the robot's next scan, which passed check(), arriving at `arrival`; what is left in
+  /// `scan` is memory to be filled again. `workspace` is that of the thread. Repeated, older and
   /// not comparable scans change nothing but the time of arrival. After resync_scans older scans in
   /// a row the robot's clock is believed to have been set back, and the last of them becomes the
   /// first.
-  Observation observe(Scan scan, Stamp arrival);
+  Observation observe(Scan& scan, Stamp arrival, DissimilarityWorkspace& workspace);
 
   /// Ends an open incident from outside: the robot knows where it is again. False if none is open.
   bool resolve();
@@ -113,14 +114,16 @@ class Session {
   /// A jump that the next good scan decides on.
   struct Suspicion {
     Jump jump;
-    double before;  // the score of the pair before the jump
+    Sample before_jump;   // of jump.scans.before
+    double score_before;  // of the pair before the jump
   };
 
   [[nodiscard]] std::optional<Outcome> refusal(const Scan& scan);
   [[nodiscard]] bool clock_was_set_back(Stamp stamp);
-  Verdict judge(const Scan& scan);
-  std::optional<EpisodeChange> advance(const Scan& scan, double score, double threshold);
-  [[nodiscard]] bool stands_out(const Scan& scan, double score, double threshold) const;
+  Verdict judge(const Scan& scan, DissimilarityWorkspace& workspace);
+  std::optional<EpisodeChange> advance(const Scan& scan, double score, double threshold,
+                                       DissimilarityWorkspace& workspace);
+  [[nodiscard]] bool stands_out(double score, double threshold, DissimilarityWorkspace& workspace);
   EpisodeChange alarm();
   void dismiss_suspicion();
   std::optional<EpisodeChange> rest(Stamp stamp);
@@ -129,7 +132,11 @@ class Session {
 
   DetectionConfig config_;
   Calibration calibration_;
-  std::optional<Scan> reference_;  // the last good scan
+  Bearings bearings_;
+  Scan reference_;  // the last good scan, if has_reference_
+  Sample reference_sample_;
+  Sample sample_;  // of the scan that is being judged
+  bool has_reference_ = false;
   std::optional<Suspicion> suspicion_;
   std::optional<Jump> jump_;      // that was confirmed last
   std::optional<Stamp> arrival_;  // of any scan

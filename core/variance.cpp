@@ -22,19 +22,6 @@ bool varies(std::span<const double> sample) {
   return std::ranges::any_of(sample, [&](double value) { return value != sample.front(); });
 }
 
-double bartlett(std::span<const double> a, std::span<const double> b) {
-  const double var_a = moments(a).variance;
-  const double var_b = moments(b).variance;
-  const double dof_a = static_cast<double>(a.size()) - 1.0;
-  const double dof_b = static_cast<double>(b.size()) - 1.0;
-  const double dof = dof_a + dof_b;
-  const double pooled = (dof_a * var_a + dof_b * var_b) / dof;                    // Eq. (5)
-  const double correction = 1.0 + (1.0 / dof_a + 1.0 / dof_b - 1.0 / dof) / 3.0;  // Eq. (6)
-  const double statistic =
-      (dof * std::log(pooled) - dof_a * std::log(var_a) - dof_b * std::log(var_b)) / correction;
-  return std::max(0.0, statistic);  // Eq. (4); rounding may leave -1e-13
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -75,18 +62,49 @@ double levene(VarianceTest test, std::span<const double> a, std::span<const doub
 
 }  // namespace
 
+double bartlett_statistic(const Moments& a, std::size_t n_a, const Moments& b, std::size_t n_b) {
+  if (a.variance == 0.0 || b.variance == 0.0) {
+    return a.variance == b.variance ? 0.0 : kInfinity;
+  }
+  const double dof_a = static_cast<double>(n_a) - 1.0;
+  const double dof_b = static_cast<double>(n_b) - 1.0;
+  const double dof = dof_a + dof_b;
+  const double pooled = (dof_a * a.variance + dof_b * b.variance) / dof;          // Eq. (5)
+  const double correction = 1.0 + (1.0 / dof_a + 1.0 / dof_b - 1.0 / dof) / 3.0;  // Eq. (6)
+  const double statistic =
+      (dof * std::log(pooled) - dof_a * std::log(a.variance) - dof_b * std::log(b.variance)) /
+      correction;
+  return std::max(0.0, statistic);  // Eq. (4); rounding may leave -1e-13
+}
+
 double variance_statistic(VarianceTest test, std::span<const double> a, std::span<const double> b) {
   assert(a.size() >= 2 && b.size() >= 2);
   if (!varies(a) || !varies(b)) {
     return varies(a) == varies(b) ? 0.0 : kInfinity;
   }
-  return test == VarianceTest::bartlett ? bartlett(a, b) : levene(test, a, b);
+  return test == VarianceTest::bartlett
+             ? bartlett_statistic(moments(a), a.size(), moments(b), b.size())
+             : levene(test, a, b);
 }
 
 double critical_value(double significance, std::size_t samples) {
   assert(significance > 0.0 && significance < 1.0 && samples > 2);
   const boost::math::fisher_f distribution(1.0, static_cast<double>(samples) - 2.0);
   return boost::math::quantile(boost::math::complement(distribution, significance));
+}
+
+double CriticalValues::at(double significance, std::size_t samples) {
+  if (significance != significance_) {
+    significance_ = significance;
+    values_.clear();
+  }
+  if (values_.size() <= samples) {
+    values_.resize(samples + 1, 0.0);
+  }
+  if (values_[samples] == 0.0) {
+    values_[samples] = critical_value(significance, samples);
+  }
+  return values_[samples];
 }
 
 }  // namespace kidnapwatch::core

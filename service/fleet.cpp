@@ -19,10 +19,9 @@ Fleet::Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion det
                     const std::lock_guard lock(config_mutex_);
                     return detection_;
                   },
-              .log_refusal = outside_.log_refusal,
-              .payload = config_.payload} {
+              .log_refusal = outside_.log_refusal} {
   for (std::size_t i = 0; i < config_.lanes; ++i) {
-    lanes_.push_back(std::make_unique<Lane>(config_.queue_per_robot));
+    lanes_.push_back(std::make_unique<Lane>(config_.queue_per_robot, config_.payload));
   }
 }
 

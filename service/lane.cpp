@@ -11,8 +11,8 @@ constexpr std::chrono::milliseconds kTickEvery{250};
 
 }  // namespace
 
-Lane::Lane(std::size_t queue_per_robot)
-    : queue_per_robot_(queue_per_robot), thread_([this] { run(); }) {}
+Lane::Lane(std::size_t queue_per_robot, const adapters::codecs::ScanPayloadConfig& payload)
+    : queue_per_robot_(queue_per_robot), bench_(payload), thread_([this] { run(); }) {}
 
 Lane::~Lane() { stop(); }
 
@@ -80,7 +80,7 @@ void Lane::run() {
       ready_.pop_front();
       const Message message = next(inbox);
       lock.unlock();
-      inbox.watch->take(message);
+      inbox.watch->take(message, bench_);
       lock.lock();
     } else if (stopping_) {
       return;

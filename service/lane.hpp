@@ -21,7 +21,7 @@ namespace kidnapwatch::service {
 /// no robot waits for more than one message of each other.
 class Lane {
  public:
-  explicit Lane(std::size_t queue_per_robot);
+  Lane(std::size_t queue_per_robot, const adapters::codecs::ScanPayloadConfig& payload);
   /// Finishes what is queued, then stops.
   ~Lane();
   Lane(const Lane&) = delete;
@@ -47,6 +47,7 @@ class Lane {
   void tick_all();
 
   const std::size_t queue_per_robot_;
+  Bench bench_;  // used by thread_ only
   mutable std::mutex mutex_;
   std::condition_variable filled_;
   std::map<const Watch*, Inbox> inboxes_;

@@ -33,11 +33,7 @@ void describe(core::Incident& incident, const core::Jump& jump) {
 }  // namespace
 
 Watch::Watch(std::string id, const Surroundings& around)
-    : id_(std::move(id)),
-      around_(around),
-      config_(around.config()),
-      session_(config_->config),
-      decoder_(around.payload) {
+    : id_(std::move(id)), around_(around), config_(around.config()), session_(config_->config) {
   status_.id = id_;
   status_.last_arrival = around_.now();
   refresh_status(status_.last_arrival);
@@ -51,11 +47,11 @@ void Watch::resume(const Past& past) {
   refresh_status(now);
 }
 
-void Watch::take(const Message& message) {
+void Watch::take(const Message& message, Bench& bench) {
   refresh_config();
   const core::Stamp arrival = message.arrival;
   const core::RobotState before = status().state;
-  count(outcome_of(message));
+  count(outcome_of(message, bench));
   refresh_status(arrival);
   const core::RobotStatus after = status();
   if (after.state != before) {
@@ -63,11 +59,10 @@ void Watch::take(const Message& message) {
   }
 }
 
-Outcome Watch::outcome_of(const Message& message) {
+Outcome Watch::outcome_of(const Message& message, Bench& bench) {
   try {
-    core::Scan scan;
-    decoder_.decode(*message.payload, message.content_type, scan);
-    const core::Observation seen = session_.observe(std::move(scan), message.arrival);
+    bench.decoder.decode(*message.payload, message.content_type, bench.scan);
+    const core::Observation seen = session_.observe(bench.scan, message.arrival, bench.workspace);
     if (seen.verdict) {
       conclude(*seen.verdict, message.arrival);
     }

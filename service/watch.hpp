@@ -24,6 +24,15 @@ struct Message {
   core::Stamp arrival;
 };
 
+/// What a thread needs to take scans, whatever robot they are of. It holds no state of a robot.
+struct Bench {
+  explicit Bench(const adapters::codecs::ScanPayloadConfig& payload) : decoder(payload) {}
+
+  adapters::codecs::ScanDecoder decoder;
+  core::Scan scan;
+  core::DissimilarityWorkspace workspace;
+};
+
 /// Where conclusions go. Called on the robot's lane; never blocks and never throws.
 class Announcer {
  public:
@@ -42,7 +51,6 @@ struct Surroundings {
   std::function<std::string(core::Stamp)> new_id;
   std::function<std::shared_ptr<const core::ConfigVersion>()> config;
   std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
-  adapters::codecs::ScanPayloadConfig payload;
 };
 
 /// What an earlier run of the service left of a robot.
@@ -58,7 +66,7 @@ class Watch {
   void resume(const Past& past);
 
   /// On the robot's lane: one scan, to its end.
-  void take(const Message& message);
+  void take(const Message& message, Bench& bench);
   /// On the robot's lane, now and then: tells when the robot fell silent.
   void tick();
 
@@ -68,7 +76,7 @@ class Watch {
   [[nodiscard]] const std::string& id() const noexcept { return id_; }
 
  private:
-  [[nodiscard]] core::Outcome outcome_of(const Message& message);
+  [[nodiscard]] core::Outcome outcome_of(const Message& message, Bench& bench);
   void conclude(const core::Verdict& verdict, core::Stamp arrival);
   void change_incident(core::EpisodeChange change, core::Stamp now);
   void refresh_config();
@@ -78,7 +86,6 @@ class Watch {
   const Surroundings& around_;
   std::shared_ptr<const core::ConfigVersion> config_;
   core::Session session_;
-  adapters::codecs::ScanDecoder decoder_;
   core::Incident incident_;  // the latest; meaningless before the first
   bool incident_open_ = false;
 

@@ -23,6 +23,7 @@ void each_member(Config& config, Visit& visit) {
   visit("variance_test", config.variance_test);
   visit("significance", config.significance);
   visit("invalid", config.invalid);
+  visit("precision", config.precision);
 }
 
 template <typename Visit, MaybeConst<core::CalibrationConfig> Config>
@@ -51,6 +52,7 @@ constexpr std::array<Names, 3> names(core::VarianceTest) {
   return {"bartlett", "levene", "brown_forsythe"};
 }
 constexpr std::array<Names, 2> names(core::InvalidPolicy) { return {"drop", "clamp"}; }
+constexpr std::array<Names, 2> names(core::Precision) { return {"f32", "f64"}; }
 
 template <typename Value>
 concept Enum = std::is_enum_v<Value>;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <ctime>
+#include <map>
 #include <queue>
 #include <thread>
 
@@ -98,9 +99,8 @@ class Stage {
 
   void publish(const Due& due, const std::function<void(const std::string&, core::Stamp)>& told) {
     const std::string& robot = players_[due.player].robot;
-    mqtt::Message message{.topic = topics_.scan(robot),
-                          .content_type = std::string(codecs::kJsonContentType)};
-    codecs::append_json(message.payload, due.outgoing.scan);
+    mqtt::Message message{.topic = topics_.scan(robot)};
+    encode(due.outgoing.scan, message);
     if (!client_.wait_for_room(kPatience)) {
       throw std::runtime_error("the broker takes no more messages");
     }
@@ -109,6 +109,16 @@ class Stage {
     if (due.outgoing.kidnapped) {
       ++played_.kidnaps;
       told(robot, due.outgoing.scan.stamp);
+    }
+  }
+
+  void encode(const core::Scan& scan, mqtt::Message& message) const {
+    if (options_.encoding == Encoding::cbor) {
+      message.content_type = codecs::kCborContentType;
+      codecs::append_cbor(message.payload, scan);
+    } else {
+      message.content_type = codecs::kJsonContentType;
+      codecs::append_json(message.payload, scan);
     }
   }
 
@@ -152,6 +162,10 @@ void PlayOptions::add_to(CLI::App& command) {
   command.add_option("--ca-file", ca_file, "Certificate authority of the broker");
   command.add_option("--cert-file", cert_file, "Own certificate");
   command.add_option("--key-file", key_file, "The key of that certificate");
+  static const std::map<std::string, Encoding> kEncodings{{"json", Encoding::json},
+                                                          {"cbor", Encoding::cbor}};
+  command.add_option("--encoding", encoding, "json, or cbor with a typed array of ranges")
+      ->transform(CLI::CheckedTransformer(kEncodings, CLI::ignore_case));
   command.add_option("--speed", speed, "How many times faster than real time")
       ->check(CLI::Range(0.001, 1e6));
 }

@@ -16,6 +16,8 @@ class App;
 
 namespace kidnapwatch::service {
 
+enum class Encoding : std::uint8_t { json, cbor };
+
 /// Where to publish, and how.
 struct PlayOptions {
   std::string url = "mqtt://127.0.0.1:1883";
@@ -25,6 +27,7 @@ struct PlayOptions {
   std::string ca_file;
   std::string cert_file;
   std::string key_file;
+  Encoding encoding = Encoding::json;
   double speed = 1.0;  ///< stamps run this many times faster than the clock
 
   void add_to(CLI::App& command);

@@ -31,7 +31,8 @@ Scan rough_room(std::uint64_t seed, double scale = 1.0, std::size_t beams = 120)
 }
 
 double cost(const Scan& a, const Scan& b, Gate gate, Dimension dimension = Dimension::points) {
-  return dissimilarity(a, b, {.dimension = dimension, .gate = gate}).cost;
+  return dissimilarity(a, b, {.dimension = dimension, .gate = gate, .precision = Precision::f64})
+      .cost;
 }
 
 /// Line 4 of Algorithm 3, spelled out: whether 1 < V < c on every axis of the two scans.
@@ -73,6 +74,15 @@ TEST(Dissimilarity, NeverStandardizedIsTheWarpingCostInMetres) {
             dtw_cost(kept_ranges(a, drop), kept_ranges(b, drop)));
 }
 
+TEST(Dissimilarity, InF32IsTheSameToThreePartsInAMillion) {
+  for (const auto gate : {Gate::never, Gate::always}) {
+    const Scan a = rough_room(1);
+    const Scan b = rough_room(2);
+    const double exact = cost(a, b, gate);
+    EXPECT_NEAR(dissimilarity(a, b, {.gate = gate}).cost, exact, 3e-6 * exact);
+  }
+}
+
 TEST(Dissimilarity, OfRoundRoomsIsTheDifferenceOfTheirRadii) {
   const Scan small = round_room(2.0, at_s(0.0), 40);
   const Scan large = round_room(3.0, at_s(0.2), 40);
@@ -106,7 +116,7 @@ TEST(Dissimilarity, DoesNotTakeTheLastDigitOfARangeForSpread) {
 class GateTest : public testing::TestWithParam<Gate> {};
 
 TEST_P(GateTest, OpensExactlyAsLine4Says) {
-  const DissimilarityConfig config{.gate = GetParam()};
+  const DissimilarityConfig config{.gate = GetParam(), .precision = Precision::f64};
   int opened = 0;
   constexpr int kPairs = 300;
   for (std::uint64_t i = 0; i < kPairs; ++i) {

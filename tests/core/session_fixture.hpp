@@ -18,11 +18,17 @@ inline DetectionConfig plain_config() {
   return config;
 }
 
+/// Feeds a scan to a session that shares its memory with nobody.
+inline Observation feed(Session& session, Scan scan, Stamp arrival) {
+  DissimilarityWorkspace workspace;
+  return session.observe(scan, arrival, workspace);
+}
+
 class SessionTest : public testing::Test {
  protected:
   /// A scan of a round room that arrives as soon as it is taken.
   Observation observe(double radius_m, double t_s) {
-    return session_.observe(round_room(radius_m, at_s(t_s)), at_s(t_s));
+    return feed(session_, round_room(radius_m, at_s(t_s)), at_s(t_s));
   }
 
   /// The verdict on a scan that is to be scored.

@@ -27,14 +27,14 @@ TEST_F(SessionOrder, RefusesOlderScans) {
 
 TEST_F(SessionOrder, ComparesWithTheLastGoodScan) {
   observe(2.0, 0.0);
-  EXPECT_EQ(session_.observe(empty_space(at_s(0.2)), at_s(0.2)).outcome, Outcome::not_comparable);
+  EXPECT_EQ(feed(session_, empty_space(at_s(0.2)), at_s(0.2)).outcome, Outcome::not_comparable);
   const Score score = judged(2.05, 0.4).score;
   EXPECT_EQ(score.reference, at_s(0.0));
   EXPECT_NEAR(score.dissimilarity.cost, 2.0, 1e-5);
 }
 
 TEST_F(SessionOrder, DoesNotStartFromAScanThatCannotBeCompared) {
-  EXPECT_EQ(session_.observe(empty_space(at_s(0.0)), at_s(0.0)).outcome, Outcome::not_comparable);
+  EXPECT_EQ(feed(session_, empty_space(at_s(0.0)), at_s(0.0)).outcome, Outcome::not_comparable);
   EXPECT_EQ(observe(2.0, 0.2).outcome, Outcome::first);
 }
 
@@ -106,7 +106,7 @@ TEST_F(SessionOrder, IsStaleAfterItsTimeWithoutAScan) {
 
 TEST_F(SessionOrder, IsNotStaleWhileScansArriveThatItCannotUse) {
   observe(2.0, 0.0);
-  session_.observe(round_room(2.0, at_s(0.0)), at_s(7.0));
+  feed(session_, round_room(2.0, at_s(0.0)), at_s(7.0));
   EXPECT_EQ(session_.state(at_s(8.0)), RobotState::normal);
 }
 

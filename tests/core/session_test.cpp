@@ -103,7 +103,7 @@ TEST_F(SessionTest, AsksOfAJumpThatTheNextScanIsNotBackWithinTheThreshold) {
 TEST_F(SessionTest, ConfirmsAcrossScansThatCannotBeCompared) {
   observe(2.0, 0.0);
   judged(8.0, 0.2);
-  EXPECT_EQ(session_.observe(empty_space(at_s(0.4)), at_s(0.4)).outcome, Outcome::not_comparable);
+  EXPECT_EQ(feed(session_, empty_space(at_s(0.4)), at_s(0.4)).outcome, Outcome::not_comparable);
   EXPECT_EQ(session_.state(at_s(0.4)), RobotState::suspect);
   EXPECT_EQ(judged(8.0, 0.6).change, EpisodeChange::opened);
 }
@@ -184,11 +184,11 @@ TEST(Session, FindsARoomChangedWithThePapersScore) {
   config.calibration.warmup_pairs = 20;
   Session session(config);
   for (int i = 0; i <= 40; ++i) {
-    session.observe(round_room(2.0 + 0.002 * (i % 5), at_s(i)), at_s(i));
+    feed(session, round_room(2.0 + 0.002 * (i % 5), at_s(i)), at_s(i));
   }
   ASSERT_EQ(session.state(at_s(40.0)), RobotState::normal);
-  session.observe(round_room(8.0, at_s(41.0)), at_s(41.0));
-  const auto observation = session.observe(round_room(8.0, at_s(42.0)), at_s(42.0));
+  feed(session, round_room(8.0, at_s(41.0)), at_s(41.0));
+  const auto observation = feed(session, round_room(8.0, at_s(42.0)), at_s(42.0));
   ASSERT_TRUE(observation.verdict);
   EXPECT_EQ(observation.verdict->change, EpisodeChange::opened);
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/session.hpp"
+#include "tests/core/session_fixture.hpp"
 #include "tests/core/rooms.hpp"
 
 namespace kidnapwatch::core {
@@ -69,7 +70,7 @@ Result result_of(const Trace& trace, std::optional<double> threshold = {}) {
   Session session(config);
   Result result;
   for (const Scan& scan : trace) {
-    const Observation observation = session.observe(scan, scan.stamp);
+    const Observation observation = feed(session, scan, scan.stamp);
     EXPECT_EQ(observation.verdict.has_value(), observation.outcome == Outcome::scored);
     if (observation.verdict) {
       result.scores.push_back(observation.verdict->score);

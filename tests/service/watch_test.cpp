@@ -14,7 +14,7 @@ using test::round_room;
 
 class WatchTest : public ::testing::Test {
  protected:
-  void send(const std::string& payload) { watch_.take(test::message(payload, now_)); }
+  void send(const std::string& payload) { watch_.take(test::message(payload, now_), bench_); }
 
   void drive(double radius_m, int scans) {
     for (int i = 0; i < scans; ++i) {
@@ -36,8 +36,8 @@ class WatchTest : public ::testing::Test {
                        .now = [this] { return now_; },
                        .new_id = [this](core::Stamp) { return std::to_string(++ids_); },
                        .config = [this] { return config_; },
-                       .log_refusal = [](const std::string&, const core::BadInput&) {},
-                       .payload = {.max_payload_bytes = 10'000}};
+                       .log_refusal = [](const std::string&, const core::BadInput&) {}};
+  Bench bench_{{.max_payload_bytes = 10'000}};
   Watch watch_{"r1", around_};
 };
 

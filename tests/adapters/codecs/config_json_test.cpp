@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kDefaults =
     R"({"dissimilarity":{"dimension":"points","gate":"paper","variance_test":"bartlett",)"
-    R"("significance":0.05,"invalid":"drop"},)"
+    R"("significance":0.05,"invalid":"drop","precision":"f32"},)"
     R"("calibration":{"false_alarm_rate":0.001,"warmup_pairs":100,"window_pairs":1000},)"
     R"("threshold":null,"stale_after_s":5.0,"resolve_after_s":30.0,"resync_scans":20})";
 
