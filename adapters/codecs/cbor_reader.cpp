@@ -121,7 +121,7 @@ std::optional<double> number(const CborReader::Head& head) {
 }
 
 float float_from_half(std::uint16_t bits) {  // RFC 8949, appendix D
-  const int exponent = bits >> 10U & 31U;
+  const auto exponent = static_cast<int>(bits >> 10U & 31U);
   const auto mantissa = static_cast<float>(bits & 1023U);
   const float sign = (bits & 0x8000U) != 0U ? -1.0F : 1.0F;
   if (exponent == 31) {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/session.hpp"
-#include "tests/core/session_fixture.hpp"
 #include "tests/core/rooms.hpp"
+#include "tests/core/session_fixture.hpp"
 
 namespace kidnapwatch::core {
 namespace {
