@@ -100,7 +100,9 @@ TEST_F(FirstLight, BadScansAreCountedUnderTheirReasonsAndHurtNobody) {
       R"({"header":{"stamp":{"sec":5,"nanosec":0}},"angle_min":0,"range_min":0.1,"range_max":9,)";
   const std::string good = head + R"("angle_increment":0.1,)";
   stack_.publish("kidnapwatch/v1/bad/scan", "\x01\x02 garbage \xff\xfe");
-  stack_.publish("kidnapwatch/v1/bad/scan", std::string(10'000'000, '1'));
+  std::string ten_megabytes;
+  ten_megabytes.resize(10'000'000, '1');
+  stack_.publish("kidnapwatch/v1/bad/scan", ten_megabytes);
   stack_.publish("kidnapwatch/v1/bad/scan", good + R"("ranges":[]})");
   stack_.publish("kidnapwatch/v1/bad/scan", good + R"("ranges":"far"})");
   stack_.publish("kidnapwatch/v1/bad/scan", head + R"("angle_increment":0,"ranges":[1,2,3]})");
