@@ -49,6 +49,7 @@ TEST_F(FleetTest, CountsEveryMessageOfManyPublishersOnce) {
   constexpr int kPublishers = 4;
   constexpr int kScans = 200;
   std::vector<std::thread> publishers;
+  publishers.reserve(kPublishers);
   for (int p = 0; p < kPublishers; ++p) {
     publishers.emplace_back([&, p] {
       for (int i = 0; i < kScans; ++i) {
@@ -65,7 +66,7 @@ TEST_F(FleetTest, CountsEveryMessageOfManyPublishersOnce) {
   core::ServiceStatus status;
   fleet.describe(status);
   EXPECT_EQ(std::accumulate(status.counts.begin(), status.counts.end(), std::uint64_t{0}),
-            std::uint64_t{kPublishers * kScans});
+            std::uint64_t{kPublishers} * kScans);
   EXPECT_EQ(status.robots, 7U);
   EXPECT_EQ(status.queued_scans, 0U);
 }

@@ -14,7 +14,7 @@ namespace kidnapwatch::service {
 namespace {
 
 class SettingsTest : public ::testing::Test {
- protected:
+ public:
   SettingsTest() {
     std::string name = (std::filesystem::temp_directory_path() / "settings-XXXXXX").string();
     folder_ = mkdtemp(name.data());
@@ -25,6 +25,7 @@ class SettingsTest : public ::testing::Test {
   }
   ~SettingsTest() override { std::filesystem::remove_all(folder_); }
 
+ protected:
   void write(const std::string& text) {
     sources_.file = folder_ / "kidnapwatch.toml";
     std::ofstream(*sources_.file) << text;

@@ -78,7 +78,7 @@ TEST_F(WatchTest, AnotherJumpUpdatesTheOpenIncidentAndRestResolvesIt) {
 
 TEST_F(WatchTest, CountsEveryKindOfBadScanUnderItsOwnReason) {
   drive(2.0, 2);
-  send("\xff\x00garbage");
+  send("\xff garbage");
   send(std::string(20'000, ' '));
   const std::string good = round_room(2.0, 200.0);
   const auto with = [&](const std::string& from, const std::string& to) {

@@ -16,8 +16,6 @@
 
 #include "tests/support/mosquitto.hpp"
 
-extern char** environ;
-
 namespace kidnapwatch::test {
 namespace {
 
@@ -28,6 +26,7 @@ int exit_code_of(int status) {
 pid_t start(const std::vector<std::string>& argv, const std::filesystem::path& out,
             const std::filesystem::path& err) {
   std::vector<char*> words;
+  words.reserve(argv.size() + 1);
   for (const auto& word : argv) {
     words.push_back(const_cast<char*>(word.c_str()));
   }
