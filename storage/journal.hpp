@@ -1,36 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written but scores: incidents with all that belongs to them, and configurations.
+// What the writing thread knows of the tables: one connection, one statement per kind of row.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <unordered_map>
 
-#include "storage/audit.hpp"
 #include "storage/records.hpp"
 #include "storage/sqlite.hpp"
 
 namespace kidnapwatch::storage {
 
+/// A score on its way to the table.
+struct ScoreRow {
+  std::string robot;
+  core::Score score;
+  core::Stamp arrival;
+};
+
 /// Rows are durable when the transaction around them was committed. Throws StorageError. One
 /// thread.
 class Journal {
  public:
-  explicit Journal(Database& database);
+  /// The file was prepared (prepare_store).
+  explicit Journal(const std::filesystem::path& file);
 
+  [[nodiscard]] Transaction begin() { return {database_, Transaction::Kind::write}; }
+  /// To be called when a transaction was not committed.
+  void forget_uncommitted() { robot_ids_.clear(); }
+
+  void append(const ScoreRow& row);
   void put(const IncidentChange& change);
-  void add(const ConfigText& config);
-  void add(const AuditEntry& entry) { audit_.append(entry); }
-  void remove_message(const std::string& event_id);
+  void append(const ConfigText& config);
 
  private:
-  void add_evidence(const std::string& incident_id, const core::ScanPair& scans);
+  std::int64_t robot_id(const std::string& robot);
 
-  Database& database_;
+  Database database_;
+  Statement find_robot_;
+  Statement add_robot_;
+  Statement add_score_;
   Statement put_incident_;
   Statement add_scan_;
   Statement add_config_;
-  Statement add_message_;
-  Statement remove_message_;
-  AuditTrail audit_;
+  std::unordered_map<std::string, std::int64_t> robot_ids_;
 };
 
 }  // namespace kidnapwatch::storage

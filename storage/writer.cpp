@@ -13,9 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "storage/file_lock.hpp"
 #include "storage/journal.hpp"
-#include "storage/retention.hpp"
 #include "storage/sqlite.hpp"
 #include "storage/upkeep.hpp"
 
@@ -26,16 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kFirstPause{50};
 
-/// FULL: with NORMAL a power cut loses what was acknowledged since the last checkpoint (1,204 of
-/// 21,663 rows in a test), with FULL none.
-Database open_for_writing(const std::filesystem::path& file) {
-  Database database(file, Access::read_write);
-  database.execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = OFF;"
-      "PRAGMA journal_size_limit = 67108864; PRAGMA cache_size = -16000");
-  return database;
-}
-
 /// Something that somebody waits for.
 struct Awaited {
   std::optional<ConfigText> config;  // nothing: a flush
@@ -43,12 +31,7 @@ struct Awaited {
   std::exception_ptr refusal = nullptr;  // by the schema
 };
 
-/// A message that was confirmed.
-struct Delivery {
-  std::string event_id;
-};
-
-using Command = std::variant<IncidentChange, AuditEntry, Delivery, Awaited>;
+using Command = std::variant<IncidentChange, Awaited>;
 
 /// What one transaction writes.
 struct Batch {
@@ -66,21 +49,24 @@ void move_behind(std::vector<T>& to, std::vector<T>& from) {
 
 void write(Journal& journal, const IncidentChange& change) { journal.put(change); }
 
-void write(Journal& journal, const AuditEntry& entry) { journal.add(entry); }
-
-void write(Journal& journal, const Delivery& delivery) {
-  journal.remove_message(delivery.event_id);
-}
-
 void write(Journal& journal, Awaited& awaited) {
   awaited.refusal = nullptr;
   if (!awaited.config) return;
   try {
-    journal.add(*awaited.config);
+    journal.append(*awaited.config);
   } catch (const StorageError& error) {
     if (!error.is_constraint()) throw;
     awaited.refusal = std::current_exception();
   }
+}
+
+void write(Journal& journal, Batch& batch) {
+  Transaction transaction = journal.begin();
+  for (const ScoreRow& row : batch.scores) journal.append(row);
+  for (Command& command : batch.commands) {
+    std::visit([&](auto& change) { write(journal, change); }, command);
+  }
+  transaction.commit();
 }
 
 void answer(Awaited& awaited, const std::exception_ptr& failure) {
@@ -103,12 +89,8 @@ class Writer::Thread {
  public:
   explicit Thread(const WriterConfig& config)
       : config_(config),
-        lock_(config.file),
         quarantined_(prepare_store(config.file)),
-        database_(open_for_writing(config.file)),
-        segments_(database_, config.segments),
-        journal_(database_),
-        retention_(database_, config.retention),
+        journal_(config.file),
         thread_([this] { run(); }) {}
 
   ~Thread() {
@@ -160,8 +142,6 @@ class Writer::Thread {
     return quarantined_;
   }
 
-  [[nodiscard]] std::shared_ptr<const RecentScores> recent() const { return segments_.recent(); }
-
  private:
   /// So many scores are not kept waiting.
   [[nodiscard]] std::size_t crowded() const { return config_.max_queued / 2 + 1; }
@@ -177,22 +157,16 @@ class Writer::Thread {
   /// and nothing is left to write.
   bool await_work(Batch& batch) {
     std::unique_lock lock(mutex_);
-    if (!batch.empty() || (has_chores() && !problem_.empty())) {
-      changed_.wait_for(lock, pause_, [this] { return is_urgent(); });
-    } else {
-      changed_.wait(lock, [this] { return is_due(); });
+    if (batch.empty()) {
+      changed_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
       changed_.wait_for(lock, config_.commit_every, [this] { return is_urgent(); });
+    } else {
+      changed_.wait_for(lock, pause_, [this] { return is_urgent(); });
     }
     move_behind(batch.scores, queue_.scores);
     move_behind(batch.commands, queue_.commands);
     writing_ = batch.scores.size();
-    return !batch.empty() || !stopping_;
-  }
-
-  [[nodiscard]] bool is_due() const { return stopping_ || !queue_.empty() || has_chores(); }
-
-  [[nodiscard]] bool has_chores() const {
-    return segments_.is_packing() || retention_.is_cleaning();
+    return !batch.empty();
   }
 
   [[nodiscard]] bool is_urgent() const {
@@ -209,10 +183,9 @@ class Writer::Thread {
     std::exception_ptr failure;
     std::string problem;
     try {
-      write(batch);
+      write(journal_, batch);
     } catch (const StorageError& error) {
-      segments_.undone();
-      if (error.is_full()) retention_.begin(latest_arrival_);
+      journal_.forget_uncommitted();
       failure = std::current_exception();
       problem = error.what();
     }
@@ -223,20 +196,6 @@ class Writer::Thread {
     return !failure;
   }
 
-  void write(Batch& batch) {
-    const bool was_packing = segments_.is_packing();
-    Transaction transaction(database_, Transaction::Kind::write);
-    if (retention_.is_cleaning()) retention_.clean_some();  // first: it makes room for the rest
-    segments_.write(batch.scores);
-    for (Command& command : batch.commands) {
-      std::visit([this](auto& change) { storage::write(journal_, change); }, command);
-    }
-    transaction.commit();
-    segments_.committed();
-    for (const auto& row : batch.scores) latest_arrival_ = std::max(latest_arrival_, row.arrival);
-    if (was_packing && !segments_.is_packing()) retention_.begin(latest_arrival_);
-  }
-
   void conclude(std::size_t scores_left, const std::string& problem) {
     const std::lock_guard lock(mutex_);
     writing_ = scores_left;
@@ -245,13 +204,8 @@ class Writer::Thread {
   }
 
   const WriterConfig config_;
-  const FileLock lock_;
   const std::optional<std::filesystem::path> quarantined_;
-  Database database_;  // this and what follows: the thread's own
-  Segments segments_;
-  Journal journal_;
-  Retention retention_;
-  core::Stamp latest_arrival_{};
+  Journal journal_;  // the thread's own
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -270,16 +224,10 @@ Writer::Writer(const WriterConfig& config) : thread_(std::make_unique<Thread>(co
 Writer::~Writer() = default;
 
 bool Writer::add_score(const std::string& robot, const core::Score& score, core::Stamp arrival) {
-  return thread_->add(ScoreRow{robot, as_stored(score), arrival});
+  return thread_->add(ScoreRow{robot, score, arrival});
 }
 
 void Writer::put_incident(IncidentChange change) { thread_->add(Command(std::move(change))); }
-
-void Writer::confirm_delivery(std::string event_id) {
-  thread_->add(Command(Delivery{std::move(event_id)}));
-}
-
-void Writer::add_audit(AuditEntry entry) { thread_->add(Command(std::move(entry))); }
 
 std::future<void> Writer::add_config(ConfigText config) {
   Awaited awaited{.config = std::move(config), .done = {}};
@@ -306,7 +254,5 @@ std::string Writer::problem() const { return thread_->problem(); }
 const std::optional<std::filesystem::path>& Writer::quarantined() const {
   return thread_->quarantined();
 }
-
-std::shared_ptr<const RecentScores> Writer::recent() const { return thread_->recent(); }
 
 }  // namespace kidnapwatch::storage
