@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // CBOR scans: as another library writes them, as typed arrays, and every way to be wrong.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -169,10 +171,8 @@ RC_GTEST_PROP(ScanCbor, IsReadByAnotherLibrary, ()) {
 RC_GTEST_PROP(ScanCbor, AgreesWithAnotherLibraryOnNumbers, (const std::vector<double>& numbers)) {
   Json json = message();
   json["ranges"] = numbers;
-  std::vector<float> expected;
-  for (const double value : numbers) {
-    expected.push_back(to_float(value));
-  }
+  std::vector<float> expected(numbers.size());
+  std::ranges::transform(numbers, expected.begin(), to_float);
   RC_PRE(!numbers.empty() && numbers.size() < 600);
   RC_ASSERT(same_ranges(ranges_of(cbor(json)), expected));
 }
