@@ -7,7 +7,6 @@
 
 #include "adapters/mqtt/backoff.hpp"
 #include "adapters/mqtt/connection.hpp"
-#include "adapters/mqtt/no_delay.hpp"
 
 namespace kidnapwatch::adapters::mqtt {
 namespace {
@@ -153,7 +152,6 @@ Client::Attempt Client::await_attempt() {
 }
 
 void Client::serve() {
-  set_no_delay(port_of(config_.broker.url));
   connection_->subscribe();
   {
     const std::lock_guard lock(mutex_);

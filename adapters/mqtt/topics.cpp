@@ -80,7 +80,7 @@ std::string Topics::of(std::string_view robot, std::string_view kind) const {
 std::vector<std::string> Topics::filters() const {
   std::vector<std::string> filters{prefix_ + "#"};
   for (const auto& [before, after] : scan_filters_) {
-    filters.push_back(std::string(before).append("+").append(after));
+    filters.push_back(before + "+" + after);
   }
   return filters;
 }
