@@ -11,9 +11,9 @@
 #include "adapters/codecs/json.hpp"
 #include "adapters/codecs/scan_encode.hpp"
 #include "adapters/codecs/scan_payload.hpp"
-#include "core/dtw.hpp"
 #include "core/session.hpp"
 #include "core/sim/drive.hpp"
+#include "tests/bench/plain_dtw.hpp"
 
 namespace kidnapwatch {
 namespace {
@@ -76,17 +76,39 @@ void BM_PathCbor(benchmark::State& state) {
 }
 BENCHMARK(BM_PathCbor)->Arg(360)->Arg(1081);
 
-void BM_DecodeJson(benchmark::State& state) {
-  const auto payloads = json_payloads(static_cast<std::size_t>(state.range(0)));
+void run_decode(benchmark::State& state, const std::vector<std::string>& payloads,
+                std::string_view content_type) {
   codecs::ScanDecoder decoder;
   core::Scan scan;
   std::size_t i = 0;
   for (auto _ : state) {
-    decoder.decode(payloads[i++ % payloads.size()], codecs::kJsonContentType, scan);
+    decoder.decode(payloads[i++ % payloads.size()], content_type, scan);
     benchmark::DoNotOptimize(scan.ranges_m.data());
   }
 }
+
+void BM_DecodeJson(benchmark::State& state) {
+  run_decode(state, json_payloads(static_cast<std::size_t>(state.range(0))),
+             codecs::kJsonContentType);
+}
 BENCHMARK(BM_DecodeJson)->Arg(360)->Arg(1081);
+
+/// A bare NaN in the place of one range, which no JSON parser takes.
+void BM_DecodeTolerantJson(benchmark::State& state) {
+  auto payloads = json_payloads(static_cast<std::size_t>(state.range(0)));
+  for (std::string& payload : payloads) {
+    const std::size_t first = payload.find('[', payload.find("\"ranges\"")) + 1;
+    payload.replace(first, payload.find(',', first) - first, "NaN");
+  }
+  run_decode(state, payloads, codecs::kJsonContentType);
+}
+BENCHMARK(BM_DecodeTolerantJson)->Arg(360)->Arg(1081);
+
+void BM_DecodeCbor(benchmark::State& state) {
+  run_decode(state, cbor_payloads(static_cast<std::size_t>(state.range(0))),
+             codecs::kCborContentType);
+}
+BENCHMARK(BM_DecodeCbor)->Arg(360)->Arg(1081);
 
 void BM_Prepare(benchmark::State& state) {
   const auto all = scans(static_cast<std::size_t>(state.range(0)));
@@ -129,22 +151,6 @@ core::Scan plainly_decoded(const std::string& payload) {
   return scan;
 }
 
-double two_rows(const core::Cloud& p, const core::Cloud& q) {
-  constexpr double kNoPath = std::numeric_limits<double>::infinity();
-  std::vector<double> above(q.size() + 1, kNoPath);
-  std::vector<double> row(q.size() + 1);
-  above[0] = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    row[0] = kNoPath;
-    for (std::size_t j = 0; j < q.size(); ++j) {
-      const double d = std::abs(p.x[i] - q.x[j]) + std::abs(p.y[i] - q.y[j]);
-      row[j + 1] = d + std::min({above[j + 1], row[j], above[j]});
-    }
-    std::swap(above, row);
-  }
-  return above.back();
-}
-
 void BM_PathPlain(benchmark::State& state) {
   const auto payloads = json_payloads(static_cast<std::size_t>(state.range(0)));
   core::Scan before = plainly_decoded(payloads[0]);
@@ -156,7 +162,7 @@ void BM_PathPlain(benchmark::State& state) {
     double v = core::variance_statistic(core::VarianceTest::bartlett, p.x, q.x);
     v += core::variance_statistic(core::VarianceTest::bartlett, p.y, q.y);
     v += core::critical_value(0.05, p.size() + q.size());
-    benchmark::DoNotOptimize(v + two_rows(p, q));
+    benchmark::DoNotOptimize(v + bench::two_rows(p, q));
     before = std::move(now);
   }
 }
