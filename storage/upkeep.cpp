@@ -91,6 +91,7 @@ fs::path quarantine(const fs::path& file) {
 
 std::optional<fs::path> prepare_store(const fs::path& file, std::chrono::milliseconds check_limit) {
   std::optional<fs::path> aside;
+  fs::create_directories(folder_of(file));
   if (fs::exists(file) && damage(file, check_limit)) aside = quarantine(file);
   migrate(file);
   return aside;

@@ -19,8 +19,9 @@ namespace kidnapwatch::storage {
 /// Throws std::filesystem::filesystem_error.
 std::filesystem::path quarantine(const std::filesystem::path& file);
 
-/// Makes a usable store of `file`: creates, checks and migrates it. A damaged one is put aside and
-/// a fresh one started; returns where it was put. Throws StorageError, std::filesystem_error.
+/// Makes a usable store of `file`: creates it with its folder, checks and migrates it. A damaged
+/// one is put aside and a fresh one started; returns where it was put. Throws StorageError,
+/// std::filesystem_error.
 std::optional<std::filesystem::path> prepare_store(
     const std::filesystem::path& file,
     std::chrono::milliseconds check_limit = std::chrono::seconds(5));

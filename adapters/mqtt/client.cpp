@@ -214,6 +214,7 @@ void Client::pause(std::chrono::milliseconds wait) {
 }
 
 void Client::connect_ended(std::uint64_t epoch, const std::string& error, bool wrong_protocol) {
+  bool is_news = false;
   {
     const std::lock_guard lock(mutex_);
     if (epoch != epoch_) {
@@ -221,9 +222,10 @@ void Client::connect_ended(std::uint64_t epoch, const std::string& error, bool w
     }
     const Attempt failure = wrong_protocol ? Attempt::wrong_protocol : Attempt::failed;
     attempt_ = error.empty() ? Attempt::made : failure;
+    is_news = !wrong_protocol && std::exchange(told_, error) != error;
   }
   changed_.notify_all();
-  if (!error.empty() && !wrong_protocol) {
+  if (is_news && !error.empty()) {
     trouble("connecting: " + error);
   }
 }

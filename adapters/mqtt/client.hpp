@@ -134,6 +134,7 @@ class Client {
   Attempt attempt_ = Attempt::pending;
   std::uint64_t epoch_ = 0;
   bool lost_ = false;  // the connection of this epoch
+  std::string told_;   // why it could not be made: told again only when it changes
   bool stopping_ = false;
   ClientStats stats_;  // the counts that queue_ does not keep
   std::atomic<bool> connected_ = false;

@@ -46,6 +46,22 @@ TEST_F(UpkeepTest, AnIntactStoreIsKept) {
   EXPECT_TRUE(Archive(folder_.store()).incident(incident_id(1)));
 }
 
+TEST_F(UpkeepTest, ItsFolderIsMade) {
+  const auto file = folder_.path() / "var" / "lib" / "store.sqlite";
+  EXPECT_EQ(prepare_store(file), std::nullopt);
+  EXPECT_TRUE(Archive(file).incidents({}).empty());
+}
+
+TEST_F(UpkeepTest, AFolderThatCannotBeIsNamed) {
+  std::ofstream(folder_.path() / "var") << "a file";
+  try {
+    prepare_store(folder_.path() / "var" / "store.sqlite");
+    FAIL() << "made a store below a file";
+  } catch (const fs::filesystem_error& error) {
+    EXPECT_EQ(error.path1(), folder_.path() / "var");
+  }
+}
+
 TEST_F(UpkeepTest, ADamagedPageIsFoundAndTheFilePutAside) {
   fill();
   const auto size = fs::file_size(folder_.store());

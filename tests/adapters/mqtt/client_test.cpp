@@ -3,6 +3,7 @@
 #include "adapters/mqtt/client.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <latch>
@@ -105,6 +106,16 @@ TEST_F(ClientTest, ConnectsWhenTheBrokerComesLate) {
   broker_.start();
   EXPECT_TRUE(client.drain(kPatience));
   EXPECT_TRUE(inbox.wait_payload("early"));
+}
+
+TEST_F(ClientTest, TellsOfAnAbsentBrokerOnce) {
+  std::atomic<int> told = 0;
+  ClientEvents events;
+  events.on_trouble = [&](const std::string& /*what*/) { ++told; };
+  Client client(config_for(broker_.url()), std::move(events));
+  client.start();
+  EXPECT_FALSE(client.wait_connected(1s));  // some ten attempts
+  EXPECT_EQ(told, 1);
 }
 
 TEST_F(RunningClientTest, ComesBackAfterTheBrokerWasKilled) {
