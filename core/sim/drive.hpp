@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <random>
 
+#include "core/random.hpp"
 #include "core/recording.hpp"
-#include "core/sim/normal.hpp"
 #include "core/sim/world.hpp"
 
 namespace kidnapwatch::core::sim {

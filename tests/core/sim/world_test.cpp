@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/sim/normal.hpp"
+#include "core/random.hpp"
 
 namespace kidnapwatch::core::sim {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The normal numbers are normal, and everywhere the same.
-#include "core/sim/normal.hpp"
+#include "core/random.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace kidnapwatch::core::sim {
+namespace kidnapwatch::core {
 namespace {
 
 TEST(Normal, HasTheMomentsAndTailsOfTheNormalDistribution) {
@@ -43,4 +43,4 @@ TEST(Uniform, IsTheUpperBitsOfAGeneratorThatTheStandardFixes) {
 }
 
 }  // namespace
-}  // namespace kidnapwatch::core::sim
+}  // namespace kidnapwatch::core

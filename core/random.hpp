@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-namespace kidnapwatch::core::sim {
+namespace kidnapwatch::core {
 
 /// Uniform in [0, 1), from the upper 53 bits.
 [[nodiscard]] inline double uniform(std::mt19937_64& random) {
@@ -31,4 +31,4 @@ class Normal {
   std::optional<double> spare_;
 };
 
-}  // namespace kidnapwatch::core::sim
+}  // namespace kidnapwatch::core
