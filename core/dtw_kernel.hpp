@@ -12,7 +12,8 @@ namespace kidnapwatch::core {
 
 /// The arithmetic that a pair is warped in.
 enum class Precision {
-  f32,  ///< for sessions: the same bits on every processor, within 3e-6 of f64 on scans
+  f32,  ///< for sessions: the same bits on every processor; within 3e-6 of f64 on two scans, 1.3e-5
+        ///< on copies of one, whose cost is all rounding
   f64,  ///< for audits: the very bits of the plain dtw_cost(p, q)
 };
 
