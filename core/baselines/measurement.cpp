@@ -9,6 +9,8 @@
 namespace kidnapwatch::core::baselines {
 namespace {
 
+constexpr double kNoHit = 6.0;  // standard deviations beyond which a beam has missed the wall
+
 /// 1 at the wall.
 double hit(double off_m, double sd_m) { return std::exp(-0.5 * off_m * off_m / (sd_m * sd_m)); }
 
@@ -101,7 +103,8 @@ double MeasuredMap::of_ranges(const Pose& T_map_base, const BeamSubset& beams) c
     const auto bearing_rad = static_cast<double>(beams.bearing_rad[i]);
     const Pose ray{lidar.x_m, lidar.y_m, T_map_base.theta_rad + bearing_rad};
     const auto measured_m = static_cast<double>(beams.range_m[i]);
-    const double expected_m = cast_ray(distances_, ray, beams.range_max_m);
+    const double reach_m = measured_m + kNoHit * config_.hit_sd_m;
+    const double expected_m = cast_ray(distances_, ray, std::min(reach_m, beams.range_max_m));
     const double early =
         measured_m < expected_m ? std::exp(-config_.short_rate_per_m * measured_m) : 0.0;
     sum += std::log(rest * hit(measured_m - expected_m, config_.hit_sd_m) +

@@ -19,6 +19,11 @@ double square_of_turn(double turn_rad) {
 
 }  // namespace
 
+Pose motion_between(const Scan& before, const Scan& now) {
+  if (!before.odometry || !now.odometry) return {};
+  return inverse(*before.odometry) * *now.odometry;
+}
+
 OdometryMotion::OdometryMotion(const Pose& T_before_now, const OdometryNoise& noise)
     : turn1_rad_(0.0), drive_m_(std::hypot(T_before_now.x_m, T_before_now.y_m)) {
   if (drive_m_ >= kHardlyMoved) turn1_rad_ = std::atan2(T_before_now.y_m, T_before_now.x_m);

@@ -6,6 +6,7 @@
 
 #include "core/pose.hpp"
 #include "core/random.hpp"
+#include "core/scan.hpp"
 
 namespace kidnapwatch::core::baselines {
 
@@ -18,6 +19,9 @@ struct OdometryNoise {
   double least_m = 0.005;
   double least_rad = 0.003;
 };
+
+/// T_before_now by odometry; none where one of the scans has no odometry.
+[[nodiscard]] Pose motion_between(const Scan& before, const Scan& now);
 
 /// A motion of the base, taken apart: turn, drive, turn; and how far each is to be trusted.
 class OdometryMotion {

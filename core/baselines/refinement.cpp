@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/baselines/mapping.hpp"
+#include "core/baselines/odometry_motion.hpp"
 #include "core/cloud.hpp"
 
 namespace kidnapwatch::core::baselines {
@@ -209,11 +210,6 @@ double farthest_m(std::span<const RecordedScan> scans, double reach_m) {
         std::max(farthest, distance_m(*scans.front().scan.odometry, *recorded.scan.odometry));
   }
   return 1.1 * farthest + reach_m;
-}
-
-Pose motion_between(const Scan& before, const Scan& now) {
-  if (!before.odometry || !now.odometry) return {};
-  return inverse(*before.odometry) * *now.odometry;
 }
 
 }  // namespace

@@ -30,6 +30,18 @@ TEST(OdometryMotion, WithoutNoiseIsTheMotion) {
   }
 }
 
+TEST(MotionBetween, IsTheChangeOfOdometry) {
+  Scan before;
+  Scan now;
+  EXPECT_EQ(motion_between(before, now), Pose{});
+  before.odometry = Pose{3.0, 1.0, 0.5 * std::numbers::pi};
+  EXPECT_EQ(motion_between(before, now), Pose{});
+  now.odometry = Pose{3.0, 2.0, 0.5 * std::numbers::pi + 0.1};
+  const Pose moved = motion_between(before, now);
+  EXPECT_NEAR(distance_m(moved, {1.0, 0.0, 0.0}), 0.0, 1e-12);
+  EXPECT_NEAR(moved.theta_rad, 0.1, 1e-12);
+}
+
 struct Scatter {
   double along_m = 0.0;
   double heading_rad = 0.0;
