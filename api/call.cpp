@@ -5,9 +5,12 @@
 #include <charconv>
 
 #include "adapters/codecs/rfc3339.hpp"
+#include "api/problem.hpp"
 #include "core/bad_input.hpp"
 
 namespace kidnapwatch::api {
+
+Response no_such_robot(const Call& call) { return problem(404, "no robot is named " + call.id); }
 
 std::optional<std::string> parameter(const Call& call, const std::string& name) {
   const auto found = call.target.query.find(name);

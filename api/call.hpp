@@ -7,15 +7,17 @@
 #include <string_view>
 
 #include "adapters/codecs/json.hpp"
+#include "api/guard.hpp"
 #include "api/http.hpp"
 #include "api/ports.hpp"
 
 namespace kidnapwatch::api {
 
-/// What the routes stand on. Both outlive every call.
+/// What the routes stand on. All outlive every call.
 struct Ports {
   Fleet& fleet;
   const History& history;
+  Guard& guard;
 };
 
 struct Call {
@@ -23,7 +25,11 @@ struct Call {
   const Request& request;
   const Target& target;  ///< its query has only parameters that the route takes
   std::string id;        ///< what stood for {id} in the path
+  Caller caller;
 };
+
+/// 404 for a robot that is not there, or not for this caller.
+[[nodiscard]] Response no_such_robot(const Call& call);
 
 /// Most items on a page, and how many if the call does not say.
 inline constexpr std::size_t kMaxPage = 1000;

@@ -33,6 +33,9 @@ Response get_config(const Call& call) {
 
 Response put_config(const Call& call) {
   auto& fleet = call.ports.fleet;
+  if (!call.caller.robots.empty()) {
+    return problem(403, "this token is for some robots, the configuration for all");
+  }
   const auto config =
       adapters::codecs::detection_config(adapters::codecs::parsed(call.request.body, "body"));
   const auto expected = header(call.request, "If-Match");
@@ -44,7 +47,7 @@ Response put_config(const Call& call) {
     }
   }
   try {
-    const auto put = fleet.put_config(config, seen_version, call.request.peer);
+    const auto put = fleet.put_config(config, seen_version, call.caller.name);
     return tagged(ok(adapters::codecs::json(put.config)), put.version);
   } catch (const VersionConflict& lost) {
     return conflict(lost.current);

@@ -37,13 +37,35 @@ IncidentQuery query(const Call& call) {
   return query;
 }
 
+/// The first incidents that the caller may see, at most `wanted.limit`.
+std::vector<core::Incident> visible(const Call& call, IncidentQuery wanted) {
+  std::vector<core::Incident> found;
+  while (true) {
+    const auto page = call.ports.history.incidents(wanted);
+    for (const auto& incident : page) {
+      if (call.caller.may_see(incident.robot) && found.size() < wanted.limit) {
+        found.push_back(incident);
+      }
+    }
+    if (page.size() < wanted.limit || found.size() == wanted.limit) {
+      return found;
+    }
+    wanted.before_id = page.back().id;
+  }
+}
+
+std::optional<core::Incident> visible_incident(const Call& call) {
+  auto incident = call.ports.history.incident(call.id);
+  return incident && call.caller.may_see(incident->robot) ? incident : std::nullopt;
+}
+
 }  // namespace
 
 Response get_incidents(const Call& call) {
   const auto limit = page_limit(call, kDefaultPage);
   auto wanted = query(call);
   wanted.limit = limit + 1;
-  const auto incidents = call.ports.history.incidents(wanted);
+  const auto incidents = visible(call, wanted);
   Json body{{"incidents", Json::array()}};
   for (std::size_t i = 0; i < std::min(limit, incidents.size()); ++i) {
     body["incidents"].push_back(json(incidents[i]));
@@ -59,12 +81,13 @@ Response get_incidents(const Call& call) {
 }
 
 Response get_incident(const Call& call) {
-  const auto incident = call.ports.history.incident(call.id);
+  const auto incident = visible_incident(call);
   return incident ? ok(json(*incident)) : problem(404, "no incident has the id " + call.id);
 }
 
 Response get_evidence(const Call& call) {
-  const auto evidence = call.ports.history.evidence(call.id);
+  const auto evidence =
+      visible_incident(call) ? call.ports.history.evidence(call.id) : std::nullopt;
   return evidence ? ok_text(evidence_json(*evidence))
                   : problem(404, "no evidence is kept of an incident " + call.id);
 }

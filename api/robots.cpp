@@ -14,8 +14,6 @@ using adapters::codecs::json;
 using adapters::codecs::Json;
 using Scores = std::vector<core::Score>;
 
-Response no_such_robot(const Call& call) { return problem(404, "no robot is named " + call.id); }
-
 /// If there are more than `limit` scores: cuts them to it and says where the next page starts.
 std::optional<std::string> next_link(const Call& call, Scores& scores, std::size_t limit) {
   if (scores.size() <= limit) {
@@ -44,19 +42,24 @@ Response listed(const Scores& scores, const std::optional<std::string>& next) {
 Response get_robots(const Call& call) {
   Json body{{"robots", Json::array()}};
   for (const auto& robot : call.ports.fleet.robots()) {
-    body["robots"].push_back(json(robot));
+    if (call.caller.may_see(robot.id)) {
+      body["robots"].push_back(json(robot));
+    }
   }
   return ok(body);
 }
 
 Response get_robot(const Call& call) {
-  const auto robot = call.ports.fleet.robot(call.id);
+  const auto robot = call.caller.may_see(call.id) ? call.ports.fleet.robot(call.id) : std::nullopt;
   return robot ? ok(json(*robot)) : no_such_robot(call);
 }
 
 Response get_scores(const Call& call) {
   const auto range = time_range(call);
   const auto limit = page_limit(call, kMaxPage);
+  if (!call.caller.may_see(call.id)) {
+    return no_such_robot(call);
+  }
   auto scores = call.ports.history.scores(call.id, range, limit + 1);
   if (scores.empty() && !call.ports.fleet.robot(call.id)) {
     return no_such_robot(call);

@@ -16,20 +16,23 @@
 namespace kidnapwatch::api {
 namespace {
 
+constexpr std::nullopt_t kAnybody = std::nullopt;
+
 constexpr std::array kRoutes{
-    Route{"GET", "/api/v1/robots", "", get_robots},
-    Route{"GET", "/api/v1/robots/{id}", "", get_robot},
-    Route{"GET", "/api/v1/robots/{id}/scores", "from to limit", get_scores},
-    Route{"GET", "/api/v1/incidents", "robot state kind from to cursor limit", get_incidents},
-    Route{"GET", "/api/v1/incidents/{id}", "", get_incident},
-    Route{"GET", "/api/v1/incidents/{id}/evidence", "", get_evidence},
-    Route{"GET", "/api/v1/config", "", get_config},
-    Route{"PUT", "/api/v1/config", "", put_config},
-    Route{"GET", "/api/v1/service", "", get_service},
-    Route{"GET", "/api/v1/openapi.json", "", get_openapi},
-    Route{"GET", "/healthz", "", get_health},
-    Route{"GET", "/readyz", "", get_readiness},
-    Route{"GET", "/metrics", "", get_metrics},
+    Route{"GET", "/api/v1/robots", "", Role::viewer, get_robots},
+    Route{"GET", "/api/v1/robots/{id}", "", Role::viewer, get_robot},
+    Route{"GET", "/api/v1/robots/{id}/scores", "from to limit", Role::viewer, get_scores},
+    Route{"GET", "/api/v1/incidents", "robot state kind from to cursor limit", Role::viewer,
+          get_incidents},
+    Route{"GET", "/api/v1/incidents/{id}", "", Role::viewer, get_incident},
+    Route{"GET", "/api/v1/incidents/{id}/evidence", "", Role::viewer, get_evidence},
+    Route{"GET", "/api/v1/config", "", Role::viewer, get_config},
+    Route{"PUT", "/api/v1/config", "", Role::admin, put_config},
+    Route{"GET", "/api/v1/service", "", Role::viewer, get_service},
+    Route{"GET", "/api/v1/openapi.json", "", kAnybody, get_openapi},
+    Route{"GET", "/healthz", "", kAnybody, get_health},
+    Route{"GET", "/readyz", "", kAnybody, get_readiness},
+    Route{"GET", "/metrics", "", Role::viewer, get_metrics},
 };
 
 /// What stands for {id} (empty if nothing does), or nothing if the path is another one.
@@ -61,12 +64,28 @@ void refuse_unknown_parameters(const Call& call, std::string_view known) {
 }
 
 Response call_route(const Route& route, const Call& call) {
+  if (route.needs && call.caller.role < *route.needs) {
+    return problem(403, "this takes the role " + std::string(name(*route.needs)));
+  }
   if (route.method != "GET" &&
       !is_media_type(header(call.request, "Content-Type"), "application/json")) {
     return problem(415, "the content type must be application/json");
   }
   refuse_unknown_parameters(call, route.parameters);
   return route.answer(call);
+}
+
+/// Calls the route for whoever the guard lets in.
+Response admitted(const Ports& ports, const Route& route, const Request& request,
+                  const Target& target, const std::string& id) {
+  if (!route.needs) {
+    return call_route(route, Call{ports, request, target, id, Caller{.name = request.peer}});
+  }
+  const auto admission = ports.guard.admit(request);
+  if (const auto* refusal = std::get_if<Response>(&admission)) {
+    return *refusal;
+  }
+  return call_route(route, Call{ports, request, target, id, std::get<Caller>(admission)});
 }
 
 Response not_allowed(std::set<std::string_view> methods) {
@@ -90,7 +109,7 @@ Response dispatch(const Ports& ports, const Request& request) {
   for (const auto& route : kRoutes) {
     const auto id = match(route.pattern, target.segments);
     if (id && route.method == method) {
-      return call_route(route, Call{ports, request, target, *id});
+      return admitted(ports, route, request, target, *id);
     }
     if (id) {
       methods.insert(route.method);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -14,6 +15,7 @@ struct Route {
   std::string_view method;
   std::string_view pattern;     ///< "{id}" stands for any one segment
   std::string_view parameters;  ///< names that the query may have, between spaces
+  std::optional<Role> needs;    ///< nothing: anybody may, without a token
   Response (*answer)(const Call& call);
 };
 
@@ -23,6 +25,7 @@ struct Route {
 using Report = std::function<void(const std::string& what)>;
 
 /// The answer to any request at all: never throws for what a client sent. HEAD is answered as GET.
+/// What a caller may not see is not there for it.
 [[nodiscard]] Response answer(const Ports& ports, const Request& request, const Report& report);
 
 }  // namespace kidnapwatch::api

@@ -19,6 +19,7 @@
 #include "service/announcements.hpp"
 #include "service/fleet.hpp"
 #include "service/ids.hpp"
+#include "service/token_file.hpp"
 #include "storage/archive.hpp"
 #include "storage/writer.hpp"
 
@@ -30,6 +31,15 @@ namespace mqtt = adapters::mqtt;
 
 core::Stamp now() {
   return std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
+}
+
+double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+api::RateLimitConfig rate_limit(const Settings& settings) {
+  const auto per_s = static_cast<double>(settings.http_rate_limit_per_s);
+  return {.per_s = per_s, .burst = 2.0 * per_s};
 }
 
 std::uint64_t random_seed() {
@@ -120,6 +130,7 @@ class Service::Parts final : public api::Fleet {
   [[nodiscard]] mqtt::LinkConfig link_config() const;
   [[nodiscard]] mqtt::LinkEvents link_events();
   [[nodiscard]] service::Fleet::Outside outside();
+  [[nodiscard]] api::Guard::Lookup token_lookup() const;
   void resume_robots();
   void receive(const mqtt::Topic& topic, const mqtt::Received& message);
   void say_again();
@@ -134,7 +145,9 @@ class Service::Parts final : public api::Fleet {
   mqtt::Link link_;
   Announcements announcements_;
   service::Fleet fleet_;
-  const api::Ports ports_{*this, history_};
+  const TokenFile tokens_{settings_.http_tokens_file};
+  api::Guard guard_;
+  const api::Ports ports_{*this, history_, guard_};
   std::unique_ptr<api::Server> server_;
 };
 
@@ -149,7 +162,12 @@ Service::Parts::Parts(const Settings& settings)
               .queue_per_robot = settings.service_queue_per_robot,
               .max_robots = settings.service_max_robots,
               .payload = {.max_payload_bytes = settings.service_max_payload_bytes}},
-             outside(), starting_config(archive_, settings)) {
+             outside(), starting_config(archive_, settings)),
+      guard_(token_lookup(), rate_limit(settings), monotonic_s) {
+  if (!needs_tokens(settings)) {
+    spdlog::warn("REST asks for no token: whoever reaches {} may read and configure everything",
+                 settings.http_host);
+  }
   if (writer_.quarantined()) {
     spdlog::error("the store was damaged; it is kept as {}, and a fresh one was started",
                   writer_.quarantined()->string());
@@ -200,6 +218,19 @@ service::Fleet::Outside Service::Parts::outside() {
                                  codecs::text(codecs::json(config.config))})
                     .get();
               }};
+}
+
+api::Guard::Lookup Service::Parts::token_lookup() const {
+  if (!needs_tokens(settings_)) {
+    return nullptr;
+  }
+  return [this](std::string_view secret) {
+    try {
+      return tokens_.caller(secret);
+    } catch (const core::BadInput& unusable) {  // our fault, not the client's
+      throw std::runtime_error(unusable.what());
+    }
+  };
 }
 
 void Service::Parts::resume_robots() {

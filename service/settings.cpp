@@ -103,6 +103,18 @@ Setting bounded(const char* key, std::size_t Settings::*member, std::size_t low,
   return one;
 }
 
+Setting auth() {
+  Setting one = setting("http.auth", &Settings::http_auth,
+                        "tokens, off, or auto: tokens unless only this machine can connect");
+  one.read = [](Settings& settings, const std::string& text) {
+    if (text != "auto" && text != "tokens" && text != "off") {
+      throw BadInput("http.auth", "must be auto, tokens or off, not '" + text + "'");
+    }
+    settings.http_auth = text;
+  };
+  return one;
+}
+
 Setting detection() {
   return {"detection",
           "how kidnappings are detected until REST sets another configuration, as in PUT /config",
@@ -135,6 +147,10 @@ std::vector<Setting> table() {
       setting("http.host", &S::http_host, "address to listen on"),
       setting("http.port", &S::http_port, "port to listen on; 0 takes a free one"),
       bounded("http.max_connections", &S::http_max_connections, 1, 10'000, "at once"),
+      auth(),
+      setting("http.tokens_file", &S::http_tokens_file, "who may use REST: kidnapwatch token"),
+      bounded("http.rate_limit_per_s", &S::http_rate_limit_per_s, 0, 100'000,
+              "requests of one client in the long run; twice as many at once; 0: no limit"),
       setting("store.file", &S::store_file, "the database"),
       bounded("store.commit_every_ms", &S::store_commit_every_ms, 1, 10'000,
               "scores are made durable this often"),
@@ -272,6 +288,11 @@ void take_flags(LoadedSettings& loaded, const Sources& sources) {
 }
 
 }  // namespace
+
+bool needs_tokens(const Settings& settings) {
+  const bool loopback = settings.http_host.starts_with("127.") || settings.http_host == "::1";
+  return settings.http_auth == "tokens" || (settings.http_auth == "auto" && !loopback);
+}
 
 std::span<const Setting> all_settings() {
   static const std::vector<Setting> kTable = table();

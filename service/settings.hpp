@@ -30,6 +30,9 @@ struct Settings {
   std::string http_host = "127.0.0.1";
   std::uint16_t http_port = 8080;
   std::size_t http_max_connections = 256;
+  std::string http_auth = "auto";  ///< tokens, off; auto: tokens unless REST is on loopback alone
+  std::string http_tokens_file = "/var/lib/kidnapwatch/tokens.json";
+  std::size_t http_rate_limit_per_s = 50;
 
   std::string store_file = "/var/lib/kidnapwatch/kidnapwatch.db";
   std::size_t store_commit_every_ms = 50;
@@ -42,6 +45,9 @@ struct Settings {
 
   core::DetectionConfig detection;  ///< until somebody sets another one over REST
 };
+
+/// Whether REST asks for a token.
+[[nodiscard]] bool needs_tokens(const Settings& settings);
 
 /// One setting: how it is called and read and shown. Texts are as in an environment variable.
 struct Setting {

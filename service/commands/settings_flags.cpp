@@ -23,10 +23,12 @@ std::string flag_name(const Setting& setting) {
 
 }  // namespace
 
-void SettingsFlags::add_to(CLI::App& command) {
+void SettingsFlags::add_to(CLI::App& command, const std::string& only) {
   command.add_option("--config", file, std::string("TOML file (default ") + kUsualFile + ")");
   for (const auto& setting : all_settings()) {
-    if (!setting.secret) {  // a command line is seen by everybody on the machine
+    if (!setting.secret &&
+        (only.empty() ||
+         setting.key == only)) {  // a command line is seen by everybody on the machine
       const std::string key = setting.key;
       command
           .add_option_function<std::string>(

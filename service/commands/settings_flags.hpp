@@ -16,8 +16,9 @@ namespace kidnapwatch::service {
 
 class SettingsFlags {
  public:
-  /// Adds --config and one flag per setting to `command`; --mqtt-url for "mqtt.url".
-  void add_to(CLI::App& command);
+  /// Adds --config and one flag per setting to `command`; --mqtt-url for "mqtt.url". Or only for
+  /// the setting `only`.
+  void add_to(CLI::App& command, const std::string& only = "");
 
   /// With the process's environment; without --config the file at its usual place, if it is there.
   /// Throws BadConfig.

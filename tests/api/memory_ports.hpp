@@ -2,6 +2,7 @@
 // A fleet and a history that live in memory, and calls of the API on them.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -133,7 +134,8 @@ class MemoryHistory : public History {
 class ApiTest : public ::testing::Test {
  protected:
   Response call(Request request) {
-    return answer({fleet, history}, request, [this](const std::string& what) { report = what; });
+    return answer({fleet, history, *guard}, request,
+                  [this](const std::string& what) { report = what; });
   }
 
   Response get(const std::string& target, std::vector<Header> headers = {}) {
@@ -161,6 +163,9 @@ class ApiTest : public ::testing::Test {
 
   MemoryFleet fleet;
   MemoryHistory history;
+  /// As where no tokens are needed and nobody is too fast.
+  std::unique_ptr<Guard> guard =
+      std::make_unique<Guard>(nullptr, RateLimitConfig{.per_s = 0.0}, [] { return 0.0; });
   std::string report;
 };
 

@@ -72,6 +72,15 @@ TEST(Openapi, DescribesNoRouteThatThereIsNot) {
   }
 }
 
+TEST(Openapi, SaysWhereATokenIsNeeded) {
+  for (const auto& route : routes()) {
+    const auto& operation = document()["paths"][std::string(route.pattern)][lower(route.method)];
+    EXPECT_EQ(operation.contains("security"), !route.needs) << route.pattern;
+    EXPECT_EQ(operation["responses"].contains("401"), route.needs.has_value()) << route.pattern;
+    EXPECT_EQ(operation["responses"].contains("403"), route.needs > Role::viewer) << route.pattern;
+  }
+}
+
 /// Calls `visit` with everything in `json`, itself included.
 void everywhere(const Json& json, const auto& visit) {
   visit(json);

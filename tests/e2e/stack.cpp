@@ -62,9 +62,13 @@ std::string Stack::get_text(const std::string& path) const {
 
 Json Stack::get(const std::string& path) const { return Json::parse(get_text(path)); }
 
-int Stack::status_of(const std::string& path) const {
-  return std::stoi(output_of(
-      {"curl", "-s", "-o", "/dev/null", "-w", "%{http_code}", "--max-time", "20", url() + path}));
+int Stack::status_of(const std::string& path, const std::string& token) const {
+  std::vector<std::string> words{"curl",         "-s", "-o", "/dev/null", "-w",
+                                 "%{http_code}", "-m", "20", url() + path};
+  if (!token.empty()) {
+    words.insert(words.end(), {"-H", "Authorization: Bearer " + token});
+  }
+  return std::stoi(output_of(words));
 }
 
 std::uint64_t Stack::counted(const std::string& outcome) const {
