@@ -51,7 +51,7 @@ std::string sha256_of(std::string_view secret) {
 }
 
 bool is_hash(std::string_view text) {
-  return text.size() == 2 * SHA256_DIGEST_LENGTH &&
+  return text.size() == std::size_t{2} * SHA256_DIGEST_LENGTH &&
          text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 

@@ -133,7 +133,7 @@ class MemoryHistory : public History {
 /// Calls routes as functions, without a server.
 class ApiTest : public ::testing::Test {
  protected:
-  Response call(Request request) {
+  Response call(const Request& request) {
     return answer({fleet, history, *guard}, request,
                   [this](const std::string& what) { report = what; });
   }

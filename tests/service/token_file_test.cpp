@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 class TokenFileTest : public testing::Test {
  protected:
-  ~TokenFileTest() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
 
   static api::NewToken made(const std::string& name) {
     return api::new_token({.name = name}, core::stamp_from_ns(1));
@@ -60,6 +60,7 @@ TEST_F(TokenFileTest, LosesNoneOfManyAtOnce) {
   TokenFile(path_).add(made("first").token);
   {
     std::vector<std::jthread> writers;
+    writers.reserve(8);
     for (int i = 0; i < 8; ++i) {
       writers.emplace_back([this] {
         for (int j = 0; j < 5; ++j) TokenFile(path_).add(made("many").token);
