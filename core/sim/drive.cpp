@@ -64,6 +64,12 @@ Drive::Drive(const World& world, const RobotModel& model, std::uint64_t seed, St
       {from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m)}, to);
 }
 
+Drive::Drive(const World& world, const RobotModel& model, std::uint64_t seed, Stamp start,
+             const Pose& begin)
+    : world_(world), model_(model), fan_(model.beams), random_(seed), now_(start) {
+  kidnap(begin);
+}
+
 RecordedScan Drive::next(double step_s) {
   assert(step_s > 0.0);
   now_ = later_by_s(now_, step_s);

@@ -29,6 +29,11 @@ class Drive {
   /// tour and outlives the drive.
   Drive(const World& world, const RobotModel& model, std::uint64_t seed, Stamp start);
 
+  /// The robot starts at `begin`, and heads for the waypoint nearest to it that it can drive
+  /// straight to. Throws BadInput if there is none.
+  Drive(const World& world, const RobotModel& model, std::uint64_t seed, Stamp start,
+        const Pose& begin);
+
   /// Moves on for `step_s` (> 0) and scans at the end of it: the first scan is of start + step_s.
   /// Odometry comes from the wheels alone, starts at 0 and does not notice a kidnapping. A beam
   /// with no wall in reach is +inf, one with a wall nearer than range_min -inf (REP 117).

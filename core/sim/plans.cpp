@@ -67,6 +67,19 @@ constexpr std::array<std::string_view, 18> kRoom{
 };
 // clang-format on
 
+// Corridors without features, a cell wide. One with turns and dead ends, and a T.
+constexpr std::array<std::string_view, 7> kTurns{
+    "############", "#b...a####f#", "#.########.#", "#.####.###.#",
+    "#.####0###.#", "#c........e#", "############",
+};
+constexpr std::array<std::string_view, 7> kTee{
+    "################", "#a............b#", "#######.########", "#######.########",
+    "#######.########", "#######0########", "################",
+};
+constexpr double kCorridorWidth = 2.0;  // m
+constexpr double kRingRadius = 4.0;     // m, of its middle
+constexpr int kRingSides = 72;
+
 class Plan {
  public:
   Plan(std::span<const std::string_view> rows, double cell_m) : rows_(rows), cell_m_(cell_m) {}
@@ -170,6 +183,44 @@ World world_from_plan(std::string_view name, std::span<const std::string_view> r
   }
   for (std::size_t i = 0; i < corners.size(); ++i) {
     add_leg(corners[i], corners[(i + 1) % corners.size()], world.path);
+  }
+  return world;
+}
+
+namespace {
+
+/// The plan with a tour along `corners`, marks that may come again, and one place elsewhere, `0`.
+World corridors(std::string_view name, std::span<const std::string_view> rows,
+                std::string_view corners, double heading_elsewhere_rad) {
+  const Plan plan(rows, kCorridorWidth);
+  const auto at = marks(plan);
+  const Point there = at.at('0');
+  World world{std::string(name), walls(plan), {}, {{there.x_m, there.y_m, heading_elsewhere_rad}}};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    add_leg(at.at(corners[i]), at.at(corners[(i + 1) % corners.size()]), world.path);
+  }
+  return world;
+}
+
+Point on_circle(double radius_m, int side) {
+  const double bearing_rad = 2.0 * std::numbers::pi * side / kRingSides;
+  return {radius_m * std::cos(bearing_rad), radius_m * std::sin(bearing_rad)};
+}
+
+}  // namespace
+
+World turns_world() { return corridors("turns", kTurns, "abcefecb", -0.5 * std::numbers::pi); }
+
+World tee_world() { return corridors("tee", kTee, "ab", 0.5 * std::numbers::pi); }
+
+World ring_world() {
+  World world{"ring", {}, {}, {{-kRingRadius, 0.0, -0.5 * std::numbers::pi}}};
+  for (int side = 0; side < kRingSides; ++side) {
+    for (const double radius_m :
+         {kRingRadius - 0.5 * kCorridorWidth, kRingRadius + 0.5 * kCorridorWidth}) {
+      world.walls.push_back({on_circle(radius_m, side), on_circle(radius_m, side + 1)});
+    }
+    world.path.push_back(on_circle(kRingRadius, side + 1));
   }
   return world;
 }

@@ -39,6 +39,15 @@ struct World {
 /// A furnished room of 12 m x 8 m.
 [[nodiscard]] World room_world();
 
+/// The paper's kind of maps: corridors 2 m wide without a feature, and one pose elsewhere.
+/// 24 m x 14 m with turns and dead ends; elsewhere is in a dead end.
+[[nodiscard]] World turns_world();
+/// A straight corridor of 28 m and one of 8 m that ends in it; elsewhere is at that one's end.
+[[nodiscard]] World tee_world();
+/// A round corridor of 4 m radius: every place looks like every other. Elsewhere is opposite of the
+/// tour's beginning.
+[[nodiscard]] World ring_world();
+
 /// A world drawn as a floor plan, a character per cell, north up, origin in the south-west corner:
 /// '#' is solid, anything else free; 'a', 'b', ... are corners of the closed tour in this order,
 /// '0', '1', ... the poses elsewhere, each turned 36 degrees further than the one before. Rows have

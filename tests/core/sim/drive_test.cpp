@@ -192,5 +192,15 @@ TEST(Drive, RefusesADestinationBehindWalls) {
   EXPECT_EQ(drive.true_pose(), before);
 }
 
+TEST(Drive, StartsWhereItIsToldTo) {
+  const World world = turns_world();
+  const Point at = world.path.back();
+  Drive drive(world, {}, 1, Stamp{}, {at.x_m, at.y_m, 0.3});
+  EXPECT_EQ(drive.true_pose(), (Pose{at.x_m, at.y_m, 0.3}));
+  for (int i = 0; i < 100; ++i) drive.next(1.0);
+  EXPECT_GE(distance_m(drive.true_pose(), {at.x_m, at.y_m, 0.0}), 8.0);  // it is on its tour
+  EXPECT_THROW(Drive(world, {}, 1, Stamp{}, {50.0, 50.0, 0.0}), BadInput);
+}
+
 }  // namespace
 }  // namespace kidnapwatch::core::sim

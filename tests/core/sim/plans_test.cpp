@@ -71,5 +71,32 @@ TEST_P(AWorld, HasFreePosesElsewhereFarFromEachOther) {
 INSTANTIATE_TEST_SUITE_P(Worlds, AWorld, ::testing::Values(corridor_world(), room_world()),
                          [](const auto& world) { return world.param.name; });
 
+class APaperWorld : public AWorld {};
+
+TEST_P(APaperWorld, HasAFreeTourAndOnePoseFarFromItsBeginning) {
+  const World& world = GetParam();
+  ASSERT_EQ(world.elsewhere.size(), 1U);
+  const Pose there = world.elsewhere.front();
+  EXPECT_GE(clearance_m(world, {there.x_m, there.y_m}), 0.9);
+  EXPECT_GE(std::hypot(there.x_m - world.path.back().x_m, there.y_m - world.path.back().y_m), 5.0);
+  for (const Point& at : world.path) EXPECT_GE(clearance_m(world, at), 0.9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, APaperWorld,
+                         ::testing::Values(turns_world(), tee_world(), ring_world()),
+                         [](const auto& world) { return world.param.name; });
+
+TEST(RingWorld, LooksTheSameFromEverywhereOnItsTour) {
+  const World ring = ring_world();
+  const Fan fan(360);
+  const Pose start{4.0, 0.0, 0.5 * std::numbers::pi};
+  const auto here = sweep(ring, start, fan, 3.5);
+  const auto there = sweep(ring, ring.elsewhere.front(), fan, 3.5);
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (std::isinf(here[i]) || std::isinf(there[i])) continue;  // one is just out of reach
+    EXPECT_NEAR(here[i], there[i], 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace kidnapwatch::core::sim
