@@ -19,7 +19,8 @@ void Announcements::announce_alert(const core::Alert& alert,
                                    std::optional<core::ScanPair> evidence) {
   link_.publish_alert(alert.incident.robot, codecs::alert_message(alert),
                       std::string(codecs::kAlertSchema));
-  writer_.put_incident({alert.incident, std::move(evidence)});
+  writer_.put_incident(
+      {.incident = alert.incident, .evidence = std::move(evidence), .changed_at = alert.timestamp});
 }
 
 void Announcements::announce_score(const std::string& robot, const core::Score& score,

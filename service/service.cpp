@@ -155,7 +155,7 @@ Service::Parts::Parts(const Settings& settings)
     : settings_(settings),
       writer_({.file = settings.store_file,
                .commit_every = std::chrono::milliseconds(settings.store_commit_every_ms)}),
-      archive_(settings.store_file),
+      archive_(settings.store_file, writer_.recent()),
       link_(link_config(), link_events()),
       announcements_(link_, writer_, settings.mqtt_publish_scores),
       fleet_({.lanes = settings.service_lanes,

@@ -3,32 +3,19 @@
 #include "storage/archive.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <map>
 
+#include "storage/audit.hpp"
 #include "storage/rows.hpp"
+#include "storage/scores.hpp"
+#include "storage/segments.hpp"
 
 namespace kidnapwatch::storage {
 namespace {
 
-using core::ns_since_epoch;
-
-constexpr std::chrono::seconds kAroundEvidence{10};
 constexpr std::size_t kMaxEvidenceScores = 1000;
 
 std::string select(std::string_view columns, std::string_view rest) {
   return "SELECT " + std::string(columns) + " " + std::string(rest);
-}
-
-std::vector<core::Score> scores_of(Database& database, const std::string& robot, core::Stamp from,
-                                   core::Stamp to, std::size_t limit) {
-  Statement query(database, select(kScoreColumns,
-                                   "FROM score WHERE robot = (SELECT id FROM robot WHERE name = ?1)"
-                                   " AND stamp >= ?2 AND stamp < ?3 ORDER BY stamp, id LIMIT ?4"));
-  query.bind(robot, ns_since_epoch(from), ns_since_epoch(to), limit);
-  std::vector<core::Score> scores;
-  while (query.step()) scores.push_back(score_from(query, 0));
-  return scores;
 }
 
 std::vector<core::Incident> all_incidents(Statement& query) {
@@ -61,14 +48,8 @@ std::optional<std::string> text(const std::optional<Name>& value) {
 }
 
 ConfigText config_from(const Statement& row) {
-  return {.version = row.integer(0),
-          .since = core::stamp_from_ns(row.integer(1)),
-          .author = row.text(2),
-          .text = row.text(3)};
-}
-
-bool is_natural(const core::Score& score) {
-  return score.state == core::RobotState::normal || score.state == core::RobotState::unknown;
+  return {
+      .version = row.integer(0), .since = row.stamp(1), .author = row.text(2), .text = row.text(3)};
 }
 
 }  // namespace
@@ -100,27 +81,33 @@ class Archive::Lease {
   std::unique_ptr<Database> connection_;
 };
 
-Archive::Archive(std::filesystem::path file) : file_(std::move(file)) {}
+Archive::Archive(std::filesystem::path file, std::shared_ptr<const RecentScores> recent)
+    : file_(std::move(file)), recent_(std::move(recent)) {}
 
 Archive::~Archive() = default;
+
+std::shared_ptr<const RecentScores> Archive::recent(Database& database) const {
+  return recent_ ? recent_ : hot_scores(database);
+}
 
 std::vector<core::Score> Archive::scores(const std::string& robot, core::Stamp from, core::Stamp to,
                                          std::size_t limit) const {
   const Lease lease(*this);
-  return scores_of(lease, robot, from, to, limit);
+  return storage::scores(lease, *recent(lease), robot, from, to, limit);
 }
 
 std::vector<core::Incident> Archive::incidents(const IncidentFilter& filter) const {
   const Lease lease(*this);
-  std::string where = "FROM incident WHERE opened_at >= ?4 AND opened_at < ?5";
+  std::string where = "FROM incident WHERE true";
+  if (filter.opened_from != core::Stamp::min()) where += " AND opened_at >= ?4";
+  if (filter.opened_to != core::Stamp::max()) where += " AND opened_at < ?5";
   if (filter.robot) where += " AND robot = ?1";
   if (filter.state) where += " AND state = ?2";
   if (filter.kind) where += " AND kind = ?3";
   if (filter.before_id) where += " AND id < ?6";
   Statement query(lease, select(kIncidentColumns, where + " ORDER BY id DESC LIMIT ?7"));
-  query.bind(filter.robot, text(filter.state), text(filter.kind),
-             ns_since_epoch(filter.opened_from), ns_since_epoch(filter.opened_to), filter.before_id,
-             filter.limit);
+  query.bind(filter.robot, text(filter.state), text(filter.kind), filter.opened_from,
+             filter.opened_to, filter.before_id, filter.limit);
   return all_incidents(query);
 }
 
@@ -139,12 +126,12 @@ std::optional<core::Incident> Archive::incident(const std::string& id) const {
 std::optional<core::Evidence> Archive::evidence(const std::string& incident_id) const {
   const Lease lease(*this);
   Database& database = lease;
-  const Transaction one_look(database, Transaction::Kind::read);
   const auto incident = find_incident(database, incident_id);
   auto scans = find_scans(database, incident_id);
   if (!incident || !scans) return std::nullopt;
-  auto scores = scores_of(database, incident->robot, scans->before.stamp - kAroundEvidence,
-                          scans->after.stamp + kAroundEvidence, kMaxEvidenceScores);
+  auto scores = storage::scores(database, *recent(database), incident->robot,
+                                scans->before.stamp - kAroundEvidence,
+                                scans->after.stamp + kAroundEvidence, kMaxEvidenceScores);
   return core::Evidence{.scans = std::move(*scans), .scores = std::move(scores)};
 }
 
@@ -163,29 +150,49 @@ std::vector<ConfigText> Archive::configs() const {
   return configs;
 }
 
+std::vector<OutboxMessage> Archive::outbox() const {
+  const Lease lease(*this);
+  Statement query(lease, "SELECT event_id, robot, payload, delivered FROM outbox ORDER BY id");
+  std::vector<OutboxMessage> messages;
+  while (query.step()) {
+    messages.push_back({.event_id = query.text(0),
+                        .robot = query.text(1),
+                        .payload = query.text(2),
+                        .delivered = query.integer(3) != 0});
+  }
+  return messages;
+}
+
+std::vector<Gap> Archive::gaps() const {
+  const Lease lease(*this);
+  Statement query(lease, "SELECT since, until, reason, scores FROM gap ORDER BY id");
+  std::vector<Gap> gaps;
+  while (query.step()) {
+    gaps.push_back({.since = query.stamp(0), .until = query.stamp(1), .reason = query.text(2)});
+    if (!query.is_null(3)) gaps.back().scores = static_cast<std::uint64_t>(query.integer(3));
+  }
+  return gaps;
+}
+
+std::vector<NumberedAuditEntry> Archive::audit(std::optional<std::int64_t> before,
+                                               std::size_t limit) const {
+  return audit_entries(Lease(*this), before, limit);
+}
+
+std::optional<std::int64_t> Archive::broken_audit_entry() const {
+  return first_broken_audit_entry(Lease(*this));
+}
+
 std::vector<RobotHistory> Archive::robots(std::size_t natural_scores) const {
   const Lease lease(*this);
-  Statement query(lease, "SELECT name, arrival, " + std::string(kScoreColumns) +
-                             " FROM score JOIN robot ON robot.id = robot ORDER BY score.id DESC");
-  std::map<std::string, RobotHistory> found;
+  const auto all_recent = recent(lease);
+  Statement query(lease, "SELECT name FROM robot ORDER BY name");
+  std::vector<RobotHistory> robots;
   while (query.step()) {
-    const auto score = score_from(query, 2);
-    const auto [robot, is_new] = found.try_emplace(query.text(0));
-    auto& history = robot->second;
-    if (is_new) {
-      history = {robot->first, core::stamp_from_ns(query.integer(1)), score, {}};
-    }
-    auto& natural = history.natural_scores;
-    if (is_natural(score) && natural.size() < natural_scores) {
-      natural.push_back(score.dissimilarity.cost);
-    }
+    auto found = history(lease, *all_recent, query.text(0), natural_scores);
+    if (found) robots.push_back(std::move(*found));
   }
-  std::vector<RobotHistory> histories;
-  for (auto& [name, history] : found) {
-    std::ranges::reverse(history.natural_scores);
-    histories.push_back(std::move(history));
-  }
-  return histories;
+  return robots;
 }
 
 }  // namespace kidnapwatch::storage

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/recent.hpp"
 #include "storage/records.hpp"
 #include "storage/sqlite.hpp"
 
@@ -19,8 +20,10 @@ namespace kidnapwatch::storage {
 /// and throws StorageError.
 class Archive {
  public:
-  /// The file was prepared (by a Writer, or prepare_store).
-  explicit Archive(std::filesystem::path file);
+  /// The file was prepared (by a Writer, or prepare_store). `recent` is that of the file's Writer;
+  /// without it, as in another process, every read of scores looks through the hot tables.
+  explicit Archive(std::filesystem::path file,
+                   std::shared_ptr<const RecentScores> recent = nullptr);
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
@@ -42,13 +45,28 @@ class Archive {
   /// Newest first.
   [[nodiscard]] std::vector<ConfigText> configs() const;
 
+  /// Alerts that were not delivered, and the latest of each unresolved incident, in the order in
+  /// which they were written.
+  [[nodiscard]] std::vector<OutboxMessage> outbox() const;
+
+  /// Where scores are missing, oldest first.
+  [[nodiscard]] std::vector<Gap> gaps() const;
+
+  /// Newest first, at most `limit`, only those before entry `before` if given.
+  [[nodiscard]] std::vector<NumberedAuditEntry> audit(std::optional<std::int64_t> before,
+                                                      std::size_t limit) const;
+  /// See first_broken_audit_entry.
+  [[nodiscard]] std::optional<std::int64_t> broken_audit_entry() const;
+
   /// Every robot that has a score, by id, with its last `natural_scores` natural scores.
   [[nodiscard]] std::vector<RobotHistory> robots(std::size_t natural_scores) const;
 
  private:
   class Lease;
+  [[nodiscard]] std::shared_ptr<const RecentScores> recent(Database& database) const;
 
   std::filesystem::path file_;
+  std::shared_ptr<const RecentScores> recent_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Database>> idle_;  // connections
 };

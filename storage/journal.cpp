@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The statements that write.
+// The statements that write incidents and configurations.
 #include "storage/journal.hpp"
 
 #include "storage/rows.hpp"
 
 namespace kidnapwatch::storage {
 namespace {
-
-/// FULL: with NORMAL a power cut loses what was acknowledged since the last checkpoint (1,204 of
-/// 21,663 rows in a test), with FULL none.
-Database open_for_writing(const std::filesystem::path& file) {
-  Database database(file, Access::read_write);
-  database.execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = OFF;"
-      "PRAGMA journal_size_limit = 67108864; PRAGMA cache_size = -16000");
-  return database;
-}
 
 // A change that was overtaken by a later one of the same incident changes nothing.
 constexpr std::string_view kPutIncident = R"(
@@ -26,51 +16,75 @@ ON CONFLICT (id) DO UPDATE SET
   config_version = ?14
 WHERE ?3 >= seq)";
 
+// Of the incident of message ?1: the latest alert stays until the incident is resolved.
+constexpr std::string_view kTidyOutbox = R"(
+WITH this (incident) AS (SELECT incident FROM outbox WHERE event_id = ?1)
+DELETE FROM outbox
+WHERE incident = (SELECT incident FROM this) AND delivered AND (
+  id < (SELECT max(id) FROM outbox WHERE incident = (SELECT incident FROM this))
+  OR EXISTS (SELECT 1 FROM incident
+             WHERE id = (SELECT incident FROM this) AND state = 'resolved')))";
+
+AuditEntry audit_entry(const IncidentChange& change) {
+  const auto& incident = change.incident;
+  return {.at = change.changed_at,
+          .actor = change.author,
+          .action = "incident." + std::string(core::name(incident.state)),
+          .subject = incident.id,
+          .detail = "robot " + incident.robot + ", seq " + std::to_string(incident.seq)};
+}
+
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& file)
-    : database_(open_for_writing(file)),
-      find_robot_(database_, "SELECT id FROM robot WHERE name = ?1"),
-      add_robot_(database_, "INSERT INTO robot (name) VALUES (?1)"),
-      add_score_(database_, "INSERT INTO score (robot, arrival, " + std::string(kScoreColumns) +
-                                ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)"),
-      put_incident_(database_, kPutIncident),
-      add_scan_(database_, "INSERT OR IGNORE INTO evidence_scan (incident, is_after, " +
-                               std::string(kScanColumns) +
-                               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)"),
-      add_config_(database_, "INSERT INTO config VALUES (?1, ?2, ?3, ?4)") {}
-
-std::int64_t Journal::robot_id(const std::string& robot) {
-  if (const auto known = robot_ids_.find(robot); known != robot_ids_.end()) return known->second;
-  std::int64_t id = 0;
-  if (find_robot_.bind(robot).step()) {
-    id = find_robot_.integer(0);
-  } else {
-    add_robot_.bind(robot).run();
-    id = database_.last_row_id();
-  }
-  find_robot_.bind();
-  return robot_ids_[robot] = id;
-}
-
-void Journal::append(const ScoreRow& row) {
-  bind_score(add_score_, robot_id(row.robot), row.arrival, row.score);
-  add_score_.run();
-}
+Journal::Journal(Database& database)
+    : database_(database),
+      put_incident_(database, kPutIncident),
+      add_scan_(database, "INSERT OR IGNORE INTO evidence_scan (incident, is_after, " +
+                              std::string(kScanColumns) +
+                              ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)"),
+      add_config_(database, "INSERT INTO config VALUES (?1, ?2, ?3, ?4)"),
+      add_message_(database,
+                   "INSERT OR IGNORE INTO outbox (event_id, incident, robot, payload) "
+                   "VALUES (?1, ?2, ?3, ?4)"),
+      add_gap_(database, "INSERT INTO gap (since, until, reason, scores) VALUES (?1, ?2, ?3, ?4)"),
+      confirm_(database, "UPDATE outbox SET delivered = 1 WHERE event_id = ?1"),
+      tidy_outbox_(database, kTidyOutbox),
+      audit_(database) {}
 
 void Journal::put(const IncidentChange& change) {
-  bind_incident(put_incident_, change.incident);
+  const auto& incident = change.incident;
+  bind_incident(put_incident_, incident);
   put_incident_.run();
-  if (!change.evidence) return;
-  bind_scan(add_scan_, change.incident.id, false, change.evidence->before);
+  if (database_.changes() > 0) audit_.append(audit_entry(change));
+  if (change.evidence) add_evidence(incident.id, *change.evidence);
+  if (const auto& alert = change.alert) {
+    add_message_.bind(alert->event_id, incident.id, alert->robot, alert->payload).run();
+  }
+}
+
+void Journal::add_evidence(const std::string& incident_id, const core::ScanPair& scans) {
+  bind_scan(add_scan_, incident_id, false, scans.before);
   add_scan_.run();
-  bind_scan(add_scan_, change.incident.id, true, change.evidence->after);
+  bind_scan(add_scan_, incident_id, true, scans.after);
   add_scan_.run();
 }
 
-void Journal::append(const ConfigText& config) {
-  add_config_.bind(config.version, core::ns_since_epoch(config.since), config.author, config.text)
-      .run();
+void Journal::add(const ConfigText& config) {
+  add_config_.bind(config.version, config.since, config.author, config.text).run();
+  audit_.append({.at = config.since,
+                 .actor = config.author,
+                 .action = "config.set",
+                 .subject = std::to_string(config.version),
+                 .detail = config.text});
+}
+
+void Journal::add(const Gap& gap) {
+  add_gap_.bind(gap.since, gap.until, gap.reason, gap.scores).run();
+}
+
+void Journal::confirm(const std::string& event_id) {
+  confirm_.bind(event_id).run();
+  tidy_outbox_.bind(event_id).run();
 }
 
 }  // namespace kidnapwatch::storage

@@ -1,49 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writing thread knows of the tables: one connection, one statement per kind of row.
+// What is written but scores: incidents with all that belongs to them, and configurations.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <unordered_map>
 
+#include "storage/audit.hpp"
 #include "storage/records.hpp"
 #include "storage/sqlite.hpp"
 
 namespace kidnapwatch::storage {
 
-/// A score on its way to the table.
-struct ScoreRow {
-  std::string robot;
-  core::Score score;
-  core::Stamp arrival;
-};
-
 /// Rows are durable when the transaction around them was committed. Throws StorageError. One
 /// thread.
 class Journal {
  public:
-  /// The file was prepared (prepare_store).
-  explicit Journal(const std::filesystem::path& file);
+  explicit Journal(Database& database);
 
-  [[nodiscard]] Transaction begin() { return {database_, Transaction::Kind::write}; }
-  /// To be called when a transaction was not committed.
-  void forget_uncommitted() { robot_ids_.clear(); }
-
-  void append(const ScoreRow& row);
   void put(const IncidentChange& change);
-  void append(const ConfigText& config);
+  void add(const ConfigText& config);
+  void add(const AuditEntry& entry) { audit_.append(entry); }
+  void add(const Gap& gap);
+  /// The message was delivered.
+  void confirm(const std::string& event_id);
 
  private:
-  std::int64_t robot_id(const std::string& robot);
+  void add_evidence(const std::string& incident_id, const core::ScanPair& scans);
 
-  Database database_;
-  Statement find_robot_;
-  Statement add_robot_;
-  Statement add_score_;
+  Database& database_;
   Statement put_incident_;
   Statement add_scan_;
   Statement add_config_;
-  std::unordered_map<std::string, std::int64_t> robot_ids_;
+  Statement add_message_;
+  Statement add_gap_;
+  Statement confirm_;
+  Statement tidy_outbox_;
+  AuditTrail audit_;
 };
 
 }  // namespace kidnapwatch::storage

@@ -2,6 +2,7 @@
 // What goes into the store and comes out of it, where core has no type for it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,11 +13,56 @@
 
 namespace kidnapwatch::storage {
 
-/// A new or changed incident.
+/// An alert that is to be delivered at least once: kept until the receiver has confirmed it, and
+/// the latest of an incident as long as that is unresolved.
+struct OutboxMessage {
+  std::string event_id;  ///< the same message again is ignored
+  std::string robot;
+  std::string payload;  ///< as it is to be published
+  bool delivered = false;
+
+  friend bool operator==(const OutboxMessage&, const OutboxMessage&) = default;
+};
+
+/// A new or changed incident, and all that is stored with it in one transaction.
 struct IncidentChange {
   core::Incident incident;
-  std::optional<core::ScanPair> evidence =
-      std::nullopt;  ///< kept from the first change that has it
+  /// Kept from the first change that has it.
+  std::optional<core::ScanPair> evidence = std::nullopt;
+  std::optional<OutboxMessage> alert = std::nullopt;
+  core::Stamp changed_at = {};         ///< for the audit trail
+  std::string author = "kidnapwatch";  ///< for the audit trail
+};
+
+/// Scores that are missing from the store, by time of arrival.
+struct Gap {
+  core::Stamp since;                                   ///< the last one before, or the first lost
+  core::Stamp until;                                   ///< the first one after, or the last lost
+  std::string reason;                                  ///< "crash", "overload"
+  std::optional<std::uint64_t> scores = std::nullopt;  ///< after a crash nobody knows how many
+
+  friend bool operator==(const Gap&, const Gap&) = default;
+};
+
+/// How far around the scans of an incident scores are part of its evidence.
+inline constexpr std::chrono::seconds kAroundEvidence{10};
+
+/// Who did what to what.
+struct AuditEntry {
+  core::Stamp at;
+  std::string actor;
+  std::string action;  ///< "incident.open", "config.set", ...
+  std::string subject;
+  std::string detail;
+
+  friend bool operator==(const AuditEntry&, const AuditEntry&) = default;
+};
+
+struct NumberedAuditEntry {
+  std::int64_t number = 0;  ///< from 1, without holes
+  AuditEntry entry;
+
+  friend bool operator==(const NumberedAuditEntry&, const NumberedAuditEntry&) = default;
 };
 
 /// A configuration as somebody set it; the text is the caller's.

@@ -10,20 +10,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "float blobs are little-endian");
 
-using core::ns_since_epoch;
-
-core::Stamp stamp_from(const Statement& row, int column) {
-  return core::stamp_from_ns(row.integer(column));
-}
-
-template <typename Value, typename Read>
-std::optional<Value> unless_null(const Statement& row, int column, Read read) {
-  if (row.is_null(column)) return std::nullopt;
-  return read(row, column);
-}
-
-double real_from(const Statement& row, int column) { return row.real(column); }
-
 std::vector<float> floats(std::span<const std::byte> bytes) {
   std::vector<float> values(bytes.size() / sizeof(float));
   if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
@@ -39,20 +25,19 @@ std::optional<core::Pose> pose_from(const Statement& row, int first) {
 
 core::Score score_from(const Statement& row, int first) {
   core::Score score;
-  score.stamp = stamp_from(row, first);
-  score.reference = stamp_from(row, first + 1);
+  score.stamp = row.stamp(first);
+  score.reference = row.stamp(first + 1);
   score.dissimilarity.cost = row.real(first + 2);
   score.dissimilarity.cost_per_beam = row.real(first + 3);
   score.dissimilarity.standardized = row.integer(first + 4) != 0;
-  score.threshold = unless_null<double>(row, first + 5, real_from);
+  if (!row.is_null(first + 5)) score.threshold = row.real(first + 5);
   score.state = static_cast<core::RobotState>(row.integer(first + 6));
   return score;
 }
 
 void bind_score(Statement& insert, std::int64_t robot, core::Stamp arrival,
                 const core::Score& score) {
-  insert.bind(robot, ns_since_epoch(arrival), ns_since_epoch(score.stamp),
-              ns_since_epoch(score.reference), score.dissimilarity.cost,
+  insert.bind(robot, arrival, score.stamp, score.reference, score.dissimilarity.cost,
               score.dissimilarity.cost_per_beam, score.dissimilarity.standardized, score.threshold,
               static_cast<int>(score.state));
 }
@@ -64,11 +49,11 @@ core::Incident incident_from(const Statement& row) {
   incident.seq = static_cast<std::uint32_t>(row.integer(2));
   incident.kind = core::incident_kind(row.text(3), "kind");
   incident.state = core::incident_state(row.text(4), "state");
-  incident.opened_at = stamp_from(row, 5);
-  incident.resolved_at = unless_null<core::Stamp>(row, 6, stamp_from);
-  incident.scan_stamp = stamp_from(row, 7);
-  incident.before_stamp = stamp_from(row, 8);
-  incident.after_stamp = stamp_from(row, 9);
+  incident.opened_at = row.stamp(5);
+  if (!row.is_null(6)) incident.resolved_at = row.stamp(6);
+  incident.scan_stamp = row.stamp(7);
+  incident.before_stamp = row.stamp(8);
+  incident.after_stamp = row.stamp(9);
   incident.detector = row.text(10);
   incident.score = row.real(11);
   incident.threshold = row.real(12);
@@ -77,18 +62,15 @@ core::Incident incident_from(const Statement& row) {
 }
 
 void bind_incident(Statement& upsert, const core::Incident& incident) {
-  const auto resolved_at =
-      incident.resolved_at ? std::optional(ns_since_epoch(*incident.resolved_at)) : std::nullopt;
   upsert.bind(incident.id, incident.robot, incident.seq, core::name(incident.kind),
-              core::name(incident.state), ns_since_epoch(incident.opened_at), resolved_at,
-              ns_since_epoch(incident.scan_stamp), ns_since_epoch(incident.before_stamp),
-              ns_since_epoch(incident.after_stamp), incident.detector, incident.score,
-              incident.threshold, incident.config_version);
+              core::name(incident.state), incident.opened_at, incident.resolved_at,
+              incident.scan_stamp, incident.before_stamp, incident.after_stamp, incident.detector,
+              incident.score, incident.threshold, incident.config_version);
 }
 
 core::Scan scan_from(const Statement& row) {
   core::Scan scan;
-  scan.stamp = stamp_from(row, 0);
+  scan.stamp = row.stamp(0);
   scan.geometry = {.angle_min_rad = row.real(1),
                    .angle_increment_rad = row.real(2),
                    .range_min_m = row.real(3),
@@ -104,10 +86,9 @@ void bind_scan(Statement& insert, const std::string& incident_id, bool is_after,
   const auto part = [&](double core::Pose::*member) {
     return scan.odometry ? std::optional((*scan.odometry).*member) : std::nullopt;
   };
-  insert.bind(incident_id, is_after, ns_since_epoch(scan.stamp), lidar.angle_min_rad,
-              lidar.angle_increment_rad, lidar.range_min_m, lidar.range_max_m,
-              part(&core::Pose::x_m), part(&core::Pose::y_m), part(&core::Pose::theta_rad),
-              std::as_bytes(std::span(scan.ranges_m)));
+  insert.bind(incident_id, is_after, scan.stamp, lidar.angle_min_rad, lidar.angle_increment_rad,
+              lidar.range_min_m, lidar.range_max_m, part(&core::Pose::x_m), part(&core::Pose::y_m),
+              part(&core::Pose::theta_rad), std::as_bytes(std::span(scan.ranges_m)));
 }
 
 }  // namespace kidnapwatch::storage

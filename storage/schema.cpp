@@ -15,15 +15,31 @@ namespace {
 constexpr std::int64_t kApplicationId = 0x4b4e4157;  // "KNAW", at byte 68 of the file
 
 // Stamps are nanoseconds since 1970. A REAL that is NULL was NaN, or absent where it may be.
-// Scores are only ever appended: clustered by (robot, stamp) 5000 rows/s wrote 52.7 MB/s instead of
-// 0.5. A score's state is the number of core::RobotState.
+// A score's state is the number of core::RobotState; the robot of an incident is its id as text.
 constexpr std::string_view kSchema1 = R"(
 CREATE TABLE robot (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;
 
-CREATE TABLE score (
+-- The segment that rows are appended to: in score_even or score_odd, by its number.
+CREATE TABLE segment (open INTEGER NOT NULL) STRICT;
+INSERT INTO segment VALUES (0);
+
+CREATE TABLE score_even (
   id INTEGER PRIMARY KEY, robot INTEGER NOT NULL, arrival INTEGER NOT NULL,
   stamp INTEGER NOT NULL, reference INTEGER NOT NULL, cost REAL, cost_per_beam REAL,
   standardized INTEGER NOT NULL, threshold REAL, state INTEGER NOT NULL) STRICT;
+
+CREATE TABLE score_odd (
+  id INTEGER PRIMARY KEY, robot INTEGER NOT NULL, arrival INTEGER NOT NULL,
+  stamp INTEGER NOT NULL, reference INTEGER NOT NULL, cost REAL, cost_per_beam REAL,
+  standardized INTEGER NOT NULL, threshold REAL, state INTEGER NOT NULL) STRICT;
+
+-- Scores of one robot, packed; see storage/block.hpp.
+CREATE TABLE block (
+  id INTEGER PRIMARY KEY, robot INTEGER NOT NULL, segment INTEGER NOT NULL,
+  arrival INTEGER NOT NULL, first_stamp INTEGER NOT NULL, last_stamp INTEGER NOT NULL,
+  data BLOB NOT NULL) STRICT;
+CREATE INDEX block_of_robot ON block (robot, first_stamp, last_stamp);
+CREATE INDEX block_by_arrival ON block (arrival);
 
 CREATE TABLE incident (
   id TEXT PRIMARY KEY, robot TEXT NOT NULL, seq INTEGER NOT NULL, kind TEXT NOT NULL,
@@ -32,6 +48,7 @@ CREATE TABLE incident (
   detector TEXT NOT NULL, score REAL, threshold REAL, config_version INTEGER NOT NULL
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX incident_of_robot ON incident (robot, id);
+CREATE INDEX incident_by_opening ON incident (opened_at);
 CREATE INDEX incident_unresolved ON incident (id) WHERE state <> 'resolved';
 
 CREATE TABLE evidence_scan (
@@ -45,6 +62,29 @@ CREATE TABLE evidence_scan (
 CREATE TABLE config (
   version INTEGER PRIMARY KEY, since INTEGER NOT NULL, author TEXT NOT NULL, text TEXT NOT NULL
 ) STRICT;
+
+-- Alerts that nobody has confirmed yet, and the latest of each unresolved incident.
+CREATE TABLE outbox (
+  id INTEGER PRIMARY KEY, event_id TEXT NOT NULL UNIQUE,
+  incident TEXT NOT NULL REFERENCES incident ON DELETE CASCADE,
+  robot TEXT NOT NULL, payload TEXT NOT NULL, delivered INTEGER NOT NULL DEFAULT 0) STRICT;
+CREATE INDEX outbox_of_incident ON outbox (incident, id);
+
+-- Scores that are missing, by time of arrival: the last one before and the first one after.
+CREATE TABLE gap (
+  id INTEGER PRIMARY KEY, since INTEGER NOT NULL, until INTEGER NOT NULL, reason TEXT NOT NULL,
+  scores INTEGER) STRICT;  -- NULL: nobody knows how many
+-- Whether a service writes, or died while it did.
+CREATE TABLE writing (is_on INTEGER NOT NULL) STRICT;
+INSERT INTO writing VALUES (0);
+
+CREATE TABLE audit (
+  id INTEGER PRIMARY KEY, at INTEGER NOT NULL, actor TEXT NOT NULL, action TEXT NOT NULL,
+  subject TEXT NOT NULL, detail TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TRIGGER audit_is_not_changed BEFORE UPDATE ON audit
+BEGIN SELECT raise(ABORT, 'the audit trail is append-only'); END;
+CREATE TRIGGER audit_is_not_deleted BEFORE DELETE ON audit
+BEGIN SELECT raise(ABORT, 'the audit trail is append-only'); END;
 )";
 
 constexpr std::array kMigrations{kSchema1};

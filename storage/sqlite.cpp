@@ -41,7 +41,13 @@ void harden(sqlite3* database) {
 
 }  // namespace
 
+StorageError StorageError::damage(const std::string& what) {
+  return {SQLITE_CORRUPT, "store: " + what};
+}
+
 bool StorageError::is_constraint() const noexcept { return (code_ & 0xff) == SQLITE_CONSTRAINT; }
+
+bool StorageError::is_full() const noexcept { return (code_ & 0xff) == SQLITE_FULL; }
 
 bool StorageError::is_damage() const noexcept {
   return (code_ & 0xff) == SQLITE_CORRUPT || (code_ & 0xff) == SQLITE_NOTADB;
@@ -112,6 +118,10 @@ void Statement::bind_integer(int index, std::int64_t value) {
   check(database_, sqlite3_bind_int64(handle_.get(), index, value));
 }
 
+void Statement::bind_at(int index, core::Stamp value) {
+  bind_integer(index, core::ns_since_epoch(value));
+}
+
 void Statement::bind_at(int index, double value) {
   check(database_, sqlite3_bind_double(handle_.get(), index, value));
 }
@@ -135,6 +145,8 @@ bool Statement::is_null(int column) const {
 std::int64_t Statement::integer(int column) const {
   return sqlite3_column_int64(handle_.get(), column);
 }
+
+core::Stamp Statement::stamp(int column) const { return core::stamp_from_ns(integer(column)); }
 
 double Statement::real(int column) const {
   return is_null(column) ? std::numeric_limits<double>::quiet_NaN()

@@ -2,6 +2,7 @@
 // SQLite with owners: a connection, a statement, a transaction; every failure is an exception.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "core/stamp.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -22,10 +25,15 @@ class StorageError : public std::runtime_error {
  public:
   StorageError(int code, const std::string& what) : std::runtime_error(what), code_(code) {}
 
+  /// Content that no version of this program wrote.
+  [[nodiscard]] static StorageError damage(const std::string& what);
+
   /// SQLite's extended result code.
   [[nodiscard]] int code() const noexcept { return code_; }
   /// A row that the schema forbids: it will not become better by trying again.
   [[nodiscard]] bool is_constraint() const noexcept;
+  /// The disk, or the file within its limit, has no room left.
+  [[nodiscard]] bool is_full() const noexcept;
   /// The file is no intact database.
   [[nodiscard]] bool is_damage() const noexcept;
 
@@ -65,8 +73,8 @@ class Statement {
   /// Throws StorageError.
   Statement(Database& database, std::string_view sql);
 
-  /// Starts over with these values for ?1, ?2, ...: integers, doubles (NaN is NULL), text, blobs or
-  /// optionals of them, nullopt being NULL.
+  /// Starts over with these values for ?1, ?2, ...: integers, doubles (NaN is NULL), text, blobs,
+  /// stamps (nanoseconds since 1970) or optionals of them, nullopt being NULL.
   template <typename... Values>
   Statement& bind(const Values&... values) {
     reset();
@@ -84,6 +92,7 @@ class Statement {
   [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] double real(int column) const;  ///< NaN for NULL
+  [[nodiscard]] core::Stamp stamp(int column) const;
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::span<const std::byte> blob(int column) const;
 
@@ -93,6 +102,7 @@ class Statement {
   void bind_at(int index, double value);
   void bind_at(int index, std::string_view value);
   void bind_at(int index, std::span<const std::byte> value);
+  void bind_at(int index, core::Stamp value);
   void bind_integer(int index, std::int64_t value);
   template <std::integral Integer>
   void bind_at(int index, Integer value) {

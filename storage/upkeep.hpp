@@ -24,7 +24,7 @@ std::filesystem::path quarantine(const std::filesystem::path& file);
 /// std::filesystem_error.
 std::optional<std::filesystem::path> prepare_store(
     const std::filesystem::path& file,
-    std::chrono::milliseconds check_limit = std::chrono::seconds(5));
+    std::chrono::milliseconds check_limit = std::chrono::seconds(2));
 
 /// Writes a consistent copy, replacing `target` once the copy is complete and durable. The store
 /// may be in use. Throws StorageError, std::filesystem::filesystem_error.

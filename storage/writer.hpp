@@ -11,6 +11,8 @@
 #include <string>
 
 #include "storage/records.hpp"
+#include "storage/retention.hpp"
+#include "storage/segments.hpp"
 
 namespace kidnapwatch::storage {
 
@@ -19,27 +21,36 @@ struct WriterConfig {
   std::chrono::milliseconds commit_every{50};
   std::size_t max_queued = 100'000;           ///< scores
   std::chrono::milliseconds retry_max{1000};  ///< longest wait between attempts at a failed commit
+  SegmentConfig segments = {};
+  RetentionConfig retention = {};
 };
 
 /// Durable once a commit returned (WAL, synchronous=FULL). Scores wait for the next group commit;
-/// an incident, its evidence and a configuration are committed at once.
+/// all else is committed at once. Old scores are packed and deleted along with the commits.
 ///
 /// While the disk refuses (full, I/O error) the Writer is not healthy; it keeps what it has and
 /// tries again with growing pauses, so that memory holds at most max_queued scores and the
-/// incidents.
+/// incidents. Scores that were refused, or died with a writer, leave a Gap.
 class Writer {
  public:
-  /// Opens and migrates the file (prepare_store). Throws StorageError if that fails.
+  /// Opens and migrates the file (prepare_store). Throws StorageError if that fails, or another
+  /// Writer has the file.
   explicit Writer(const WriterConfig& config);
   /// Writes all that is queued, then stops; gives up at the first failure.
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// False, and counted, if the queue is full. Never blocks. Any thread.
+  /// Kept as_stored(). False, and counted, if the queue is full. Never blocks. Any thread.
   bool add_score(const std::string& robot, const core::Score& score, core::Stamp arrival);
-  /// Inserts or, by id, replaces unless the stored seq is higher. Never refused. Any thread.
+  /// Inserts or, by id, replaces unless the stored seq is higher; with its alert and an entry in
+  /// the audit trail in the same transaction. Never refused; while a thousand changes wait for a
+  /// failing disk, more are kept without evidence. Any thread.
   void put_incident(IncidentChange change);
+  /// The alert with this id has arrived. Any thread.
+  void confirm_delivery(std::string event_id);
+  /// For what changes nothing else here, such as tokens. Any thread.
+  void add_audit(AuditEntry entry);
   /// A new version of the configuration, as text; the future is ready when it is durable, and
   /// throws StorageError if it could not be written: then it never will be. Any thread.
   std::future<void> add_config(ConfigText config);
@@ -53,6 +64,8 @@ class Writer {
   [[nodiscard]] std::string problem() const;   ///< why it did not; empty if healthy
   /// Where a damaged file was put aside when this Writer started, with a fresh one in its place.
   [[nodiscard]] const std::optional<std::filesystem::path>& quarantined() const;
+  /// For an Archive beside this Writer.
+  [[nodiscard]] std::shared_ptr<const RecentScores> recent() const;
 
  private:
   class Thread;

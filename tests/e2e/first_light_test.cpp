@@ -155,7 +155,8 @@ TEST_F(FirstLight, AStopLosesNothingThatIsQueued) {
   stack_.service->signal(SIGTERM);
   EXPECT_EQ(stack_.service->wait(), 0) << stack_.service_log();
   const std::string rows =
-      output_of({"sqlite3", stack_.database().string(), "SELECT count(*) FROM score"});
+      output_of({"sqlite3", stack_.database().string(),
+                 "SELECT (SELECT count(*) FROM score_even) + (SELECT count(*) FROM score_odd)"});
   EXPECT_EQ(std::stoull(rows), scored);
 }
 

@@ -36,7 +36,7 @@ class ArchiveTest : public testing::Test {
 
   StoreFolder folder_;
   Writer writer_{{.file = folder_.store()}};
-  Archive archive_{folder_.store()};
+  Archive archive_{folder_.store(), writer_.recent()};
 };
 
 std::vector<std::string> ids(const std::vector<core::Incident>& incidents) {

@@ -45,8 +45,10 @@ void look(const Archive& archive, const std::atomic<bool>& stop) {
 
 TEST(Concurrency, ReadersSeeEveryLanesScoresInOrderWhileTheyAreWritten) {
   const StoreFolder folder;
-  Writer writer({.file = folder.store(), .commit_every = std::chrono::milliseconds(2)});
-  const Archive archive(folder.store());
+  Writer writer({.file = folder.store(),
+                 .commit_every = std::chrono::milliseconds(2),
+                 .segments = {.scores_per_robot = 100, .robots_per_commit = 1}});
+  const Archive archive(folder.store(), writer.recent());
   std::atomic<bool> stop = false;
   std::vector<std::thread> readers;
   readers.reserve(kReaders);

@@ -3,12 +3,14 @@
 #include <array>
 #include <csignal>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "storage/archive.hpp"
+#include "storage/sqlite.hpp"
 #include "storage/upkeep.hpp"
 #include "storage/writer.hpp"
 #include "tests/storage/store_folder.hpp"
@@ -16,18 +18,22 @@
 namespace kidnapwatch::storage {
 namespace {
 
-constexpr int kKills = 10;
+constexpr int kKills = 12;
 constexpr int kScoresPerIncident = 20;
 
 /// Writes incident after incident with scores in between; tells each number once it is durable.
 [[noreturn]] void write_for_ever(const std::filesystem::path& store, int first, int report) {
-  Writer writer({.file = store, .commit_every = std::chrono::milliseconds(1)});
+  Writer writer({.file = store,
+                 .commit_every = std::chrono::milliseconds(1),
+                 .segments = {.scores_per_robot = 50, .robots_per_commit = 1}});
   for (int number = first;; ++number) {
     for (int i = 0; i < kScoresPerIncident; ++i) {
       const double t = number + i / 100.0;
-      writer.add_score("robot-1", score_at(t), at_s(t));
+      writer.add_score("robot-" + std::to_string(i % 2), score_at(t), at_s(t));
     }
-    writer.put_incident({.incident = incident_of(number), .evidence = core::ScanPair{}});
+    writer.put_incident({.incident = incident_of(number),
+                         .evidence = core::ScanPair{},
+                         .alert = OutboxMessage{incident_id(number), "robot-1", "{}"}});
     writer.flush().get();
     if (::write(report, &number, sizeof number) != sizeof number) ::_exit(1);
   }
@@ -53,24 +59,35 @@ int kill_a_writer(const std::filesystem::path& store, int first, int enough) {
   return last;
 }
 
-TEST(Crash, NothingAcknowledgedIsLostAndTheFileIsIntact) {
+/// The scores between two incidents, of both robots.
+std::size_t scores_of(const Archive& archive, int number) {
+  return archive.scores("robot-0", at_s(number), at_s(number + 1), 100).size() +
+         archive.scores("robot-1", at_s(number), at_s(number + 1), 100).size();
+}
+
+TEST(Crash, NothingAcknowledgedIsLostOrDoubledAndTheFileIsIntact) {
   const StoreFolder folder;
   std::mt19937 random(3);
-  int last = 0;
+  std::vector<int> acknowledged;
+  int next = 1;
   for (int kill = 0; kill < kKills; ++kill) {
-    last = kill_a_writer(folder.store(), last + 2, std::uniform_int_distribution(1, 30)(random));
+    const int last = kill_a_writer(folder.store(), next, static_cast<int>(random() % 30));
+    for (; next <= last; ++next) acknowledged.push_back(next);
+    next = last + 2;  // the one after `last` may be there or not
     ASSERT_EQ(damage(folder.store(), std::chrono::minutes(1)), std::nullopt);
-    const Archive archive(folder.store());
-    const auto newest = archive.incidents({.limit = 1000});
-    ASSERT_FALSE(newest.empty());
-    EXPECT_GE(newest.front().id, incident_id(last));
-    for (int number = last; number > last - 2; --number) {
-      EXPECT_EQ(archive.scores("robot-1", at_s(number), at_s(number + 1), 100).size(),
-                kScoresPerIncident);
-      EXPECT_TRUE(archive.evidence(incident_id(number)));
-    }
+    Database database(folder.store(), Access::read_only);
+    const auto incidents = database.integer("SELECT count(*) FROM incident");
+    EXPECT_EQ(database.integer("SELECT count(*) FROM outbox"), incidents);
+    EXPECT_EQ(database.integer("SELECT count(*) FROM audit"), incidents);
+    EXPECT_EQ(database.integer("SELECT count(*) FROM evidence_scan"), 2 * incidents);
   }
   const Writer writer({.file = folder.store()});
+  const Archive archive(folder.store(), writer.recent());
+  for (const int number : acknowledged) {
+    EXPECT_EQ(scores_of(archive, number), kScoresPerIncident) << number;
+    EXPECT_TRUE(archive.evidence(incident_id(number))) << number;
+  }
+  EXPECT_EQ(archive.broken_audit_entry(), std::nullopt);
   EXPECT_EQ(writer.quarantined(), std::nullopt);
 }
 

@@ -2,10 +2,12 @@
 // Queue, group commits, and a disk that fails.
 #include "storage/writer.hpp"
 
+#include <csignal>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 
 #include "storage/archive.hpp"
 #include "storage/sqlite.hpp"
@@ -88,6 +90,13 @@ TEST_F(WriterTest, RefusesNewerSchemas) {
   EXPECT_THROW(Writer({.file = folder_.store()}), StorageError);
 }
 
+TEST_F(WriterTest, ASecondWriterIsRefused) {
+  auto first = std::make_unique<Writer>(WriterConfig{.file = folder_.store()});
+  EXPECT_THROW(Writer({.file = folder_.store()}), StorageError);
+  first.reset();
+  EXPECT_NO_THROW(Writer({.file = folder_.store()}));
+}
+
 TEST_F(WriterTest, AnOvertakenChangeOfAnIncidentChangesNothing) {
   Writer writer({.file = folder_.store()});
   auto incident = incident_of(1);
@@ -138,6 +147,24 @@ TEST_F(FaultyWriterTest, AFullDiskLosesNothingAndResumesByItself) {
     EXPECT_TRUE(is_stored(code));
     EXPECT_EQ(writer.problem(), "");
   }
+}
+
+TEST_F(WriterTest, ALimitOfTheFileSizeIsAFullDiskToo) {
+  Writer writer({.file = folder_.store(),
+                 .commit_every = std::chrono::milliseconds(1),
+                 .retry_max = std::chrono::milliseconds(5)});
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{.rlim_cur = 4096, .rlim_max = before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  writer.add_score("robot-1", score_at(1), at_s(1));
+  EXPECT_THROW(writer.flush().get(), StorageError);
+  EXPECT_FALSE(writer.healthy());
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_NO_THROW(writer.flush().get());
+  EXPECT_TRUE(writer.healthy());
+  EXPECT_EQ(stored_scores(), 1U);
 }
 
 TEST_F(FaultyWriterTest, AFailingSyncIsNoCommit) {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is old goes, what is evidence stays, and the file keeps its size.
+#include "storage/retention.hpp"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "storage/archive.hpp"
+#include "storage/schema.hpp"
+#include "storage/segments.hpp"
+#include "storage/upkeep.hpp"
+#include "storage/writer.hpp"
+#include "tests/storage/store_folder.hpp"
+
+namespace kidnapwatch::storage {
+namespace {
+
+using std::chrono::hours;
+
+constexpr double kHour = 3600;
+
+class RetentionTest : public testing::Test {
+ protected:
+  RetentionTest() {
+    migrate(folder_.store());
+    database_.execute("PRAGMA synchronous = OFF");
+  }
+
+  /// A block of one score an hour; or of so many meaningless bytes.
+  void add_blocks(int from_h, int to_h, std::size_t bytes = 0) {
+    Transaction transaction(database_, Transaction::Kind::write);
+    RobotIds ids(database_);
+    Statement add(database_,
+                  "INSERT INTO block (robot, segment, arrival, first_stamp, last_stamp, data) "
+                  "VALUES (?1, ?2, ?3, ?3, ?3, ?4)");
+    for (int h = from_h; h < to_h; ++h) {
+      const auto stamp = at_s(h * kHour);
+      const auto data =
+          bytes == 0 ? packed(std::vector{score_at(h * kHour)}) : std::vector<std::byte>(bytes);
+      add.bind(ids.of("robot-1"), h, stamp, data).run();
+    }
+    transaction.commit();
+  }
+
+  void clean(const RetentionConfig& config, int now_h) {
+    Retention retention(database_, config);
+    retention.begin(at_s(now_h * kHour));
+    finish(retention);
+  }
+  void finish(Retention& retention) {
+    for (rounds_ = 0; retention.is_cleaning(); ++rounds_) {
+      Transaction transaction(database_, Transaction::Kind::write);
+      retention.clean_some();
+      transaction.commit();
+    }
+  }
+
+  std::int64_t count(const std::string& what) {
+    return database_.integer("SELECT count(*) FROM " + what);
+  }
+  /// Blocks left, as hours.
+  std::vector<int> left() {
+    Statement query(database_, "SELECT segment FROM block ORDER BY id");
+    std::vector<int> found;
+    while (query.step()) found.push_back(static_cast<int>(query.integer(0)));
+    return found;
+  }
+  void put(const core::Incident& incident, double jump_s) {
+    core::Scan scan{.stamp = at_s(jump_s), .ranges_m = {1.0F}};
+    Writer({.file = folder_.store()})
+        .put_incident({.incident = incident, .evidence = core::ScanPair{scan, scan}});
+  }
+
+  StoreFolder folder_;
+  Database database_{folder_.store(), Access::read_write};
+  int rounds_ = 0;
+};
+
+TEST_F(RetentionTest, ScoresGoWhenTheyAreOld) {
+  add_blocks(0, 1000);
+  clean({.keep_scores = hours(10)}, 1005);
+  EXPECT_EQ(left(), (std::vector{995, 996, 997, 998, 999}));
+  EXPECT_GE(rounds_, 10);  // not all at once
+}
+
+TEST_F(RetentionTest, ScoresAroundEvidenceStayAsLongAsTheirIncident) {
+  add_blocks(0, 20);
+  auto incident = incident_of(1);
+  incident.opened_at = at_s(0);
+  put(incident, 5 * kHour + 9);
+  incident = incident_of(2);
+  incident.robot = "robot-2";
+  put(incident, 7 * kHour);  // another robot's
+  Retention retention(database_, {.keep_scores = hours(2), .keep_incidents = hours(24)});
+  retention.begin(at_s(20 * kHour));
+  finish(retention);
+  EXPECT_EQ(left(), (std::vector{5, 18, 19}));
+  EXPECT_EQ(Archive(folder_.store()).evidence(incident_id(1))->scores,
+            std::vector{score_at(5 * kHour)});
+  retention.begin(at_s(30 * kHour));
+  finish(retention);
+  EXPECT_EQ(left(), std::vector{5});  // open incidents stay
+  incident = incident_of(1);
+  incident.opened_at = at_s(0);
+  incident.state = core::IncidentState::resolved;
+  put(incident, 0);
+  retention.begin(at_s(30 * kHour));
+  finish(retention);
+  EXPECT_TRUE(left().empty());
+  EXPECT_EQ(count("incident"), 1);
+  EXPECT_EQ(count("evidence_scan"), 2);
+}
+
+TEST_F(RetentionTest, TheOldestScoresGoWhenTheFileIsNearlyFull) {
+  const RetentionConfig config{.keep_scores = hours(10'000), .max_bytes = 8'000'000};
+  add_blocks(0, 3000, 1900);  // 6 MB and more
+  clean(config, 3000);
+  const auto before = left().size();
+  EXPECT_GT(before, 2500U);
+  add_blocks(3000, 3400, 1900);
+  clean(config, 3400);
+  EXPECT_LT(left().size(), 3400U);
+  EXPECT_EQ(left().back(), 3399);
+  EXPECT_LE(database_.integer("PRAGMA page_count") - database_.integer("PRAGMA freelist_count"),
+            7'000'000 / 4096);
+}
+
+TEST_F(RetentionTest, MuchFreeSpaceIsGivenBack) {
+  add_blocks(0, 15'000, 4000);  // 60 MB
+  const auto before = database_.integer("PRAGMA page_count");
+  clean({.keep_scores = hours(100)}, 15'000);
+  EXPECT_EQ(left().size(), 100U);
+  EXPECT_LT(database_.integer("PRAGMA page_count"), before / 4 * 3);
+  EXPECT_EQ(damage(folder_.store(), std::chrono::minutes(1)), std::nullopt);
+}
+
+TEST_F(RetentionTest, AFileAtItsLimitRefusesAndMakesRoom) {
+  // The blocks of an hour fill the file; what is appended then has to push them out.
+  add_blocks(0, 900, 4000);
+  const auto bytes = static_cast<std::uint64_t>(database_.integer("PRAGMA page_count")) * 4096;
+  Writer writer({.file = folder_.store(),
+                 .commit_every = std::chrono::milliseconds(1),
+                 .retry_max = std::chrono::milliseconds(1),
+                 .retention = {.max_bytes = bytes + 40'960}});
+  for (int i = 0; i < 5000; ++i) {
+    ASSERT_TRUE(writer.add_score("robot-2", score_at(i), at_s(kHour * 900 + i)));
+  }
+  while (writer.queued() > 0 || !writer.healthy()) std::this_thread::yield();
+  EXPECT_EQ(Archive(folder_.store()).scores("robot-2", at_s(0), at_s(5000), 10'000).size(), 5000U);
+  EXPECT_LT(left().size(), 900U);
+  EXPECT_LE(std::filesystem::file_size(folder_.store()), bytes + 40'960);
+}
+
+}  // namespace
+}  // namespace kidnapwatch::storage
