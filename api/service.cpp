@@ -20,14 +20,12 @@ Response get_health(const Call& /*call*/) { return ok({{"status", "ok"}}); }
 Response get_readiness(const Call& call) {
   const auto status = call.ports.fleet.status();
   Json reasons = Json::array();
-  if (!status.broker_connected) {
-    reasons.push_back("the broker is not connected");
+  for (const auto& degradation : status.degraded) {
+    reasons.push_back(degradation.what);
   }
-  if (!status.store_healthy) {
-    reasons.push_back("the store does not take writes");
-  }
-  const bool ready = reasons.empty();
-  Response response = ok({{"status", ready ? "ready" : "not ready"}, {"reasons", reasons}});
+  const bool ready = status.broker_connected && status.store_healthy;
+  const char* how = !ready ? "not ready" : reasons.empty() ? "ready" : "degraded";
+  Response response = ok({{"status", how}, {"reasons", reasons}});
   response.status = ready ? 200 : 503;
   return response;
 }

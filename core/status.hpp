@@ -24,16 +24,25 @@ struct RobotStatus {
   OutcomeCounts counts{};                  ///< since the service started
 };
 
+/// Something that the service cannot do as it should.
+struct Degradation {
+  std::string name;  ///< "broker", "store", "quarantine", "clock", "overload"
+  std::string what;  ///< a sentence for the operator
+
+  friend bool operator==(const Degradation&, const Degradation&) = default;
+};
+
 struct ServiceStatus {
   std::string version;
   Stamp started;
   std::uint64_t robots = 0;
   bool broker_connected = false;
   bool store_healthy = false;
-  std::uint64_t queued_scans = 0;   ///< waiting in all lanes
-  std::uint64_t queued_writes = 0;  ///< waiting for the store
-  std::uint64_t lost_writes = 0;    ///< refused because the store's queue was full
-  OutcomeCounts counts{};           ///< of all robots and of messages that belong to none
+  std::uint64_t queued_scans = 0;     ///< waiting in all lanes
+  std::uint64_t queued_writes = 0;    ///< waiting for the store
+  std::uint64_t lost_writes = 0;      ///< refused because the store's queue was full
+  std::vector<Degradation> degraded;  ///< empty: all is well
+  OutcomeCounts counts{};             ///< of all robots and of messages that belong to none
 };
 
 /// A configuration as somebody set it.

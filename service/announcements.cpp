@@ -17,10 +17,15 @@ void Announcements::announce_state(const core::RobotStatus& status, core::Stamp 
 
 void Announcements::announce_alert(const core::Alert& alert,
                                    std::optional<core::ScanPair> evidence) {
-  link_.publish_alert(alert.incident.robot, codecs::alert_message(alert),
-                      std::string(codecs::kAlertSchema));
-  writer_.put_incident(
-      {.incident = alert.incident, .evidence = std::move(evidence), .changed_at = alert.timestamp});
+  const storage::OutboxMessage message{.event_id = alert.event_id,
+                                       .robot = alert.incident.robot,
+                                       .payload = codecs::alert_message(alert)};
+  // Handed over before it is sent, so that the confirmation comes after it; waits for nothing.
+  writer_.put_incident({.incident = alert.incident,
+                        .evidence = std::move(evidence),
+                        .alert = message,
+                        .changed_at = alert.timestamp});
+  outbox_.send(message);
 }
 
 void Announcements::announce_score(const std::string& robot, const core::Score& score,

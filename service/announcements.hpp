@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conclusions to those who wait for them: the broker at once, then the store.
+// Conclusions to those who wait for them: broker and store, neither waiting for the other.
 #pragma once
 
 #include "adapters/mqtt/link.hpp"
+#include "service/outbox.hpp"
 #include "service/watch.hpp"
 #include "storage/writer.hpp"
 
@@ -11,8 +12,9 @@ namespace kidnapwatch::service {
 class Announcements final : public Announcer {
  public:
   /// All outlive this. `publish_scores`: scores go to the broker, too.
-  Announcements(adapters::mqtt::Link& link, storage::Writer& writer, bool publish_scores)
-      : link_(link), writer_(writer), publish_scores_(publish_scores) {}
+  Announcements(adapters::mqtt::Link& link, storage::Writer& writer, Outbox& outbox,
+                bool publish_scores)
+      : link_(link), writer_(writer), outbox_(outbox), publish_scores_(publish_scores) {}
 
   void announce_state(const core::RobotStatus& status, core::Stamp now) override;
   void announce_alert(const core::Alert& alert, std::optional<core::ScanPair> evidence) override;
@@ -22,6 +24,7 @@ class Announcements final : public Announcer {
  private:
   adapters::mqtt::Link& link_;
   storage::Writer& writer_;
+  Outbox& outbox_;
   const bool publish_scores_;
 };
 

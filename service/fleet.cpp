@@ -13,6 +13,7 @@ Fleet::Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion det
       detection_(std::make_shared<const core::ConfigVersion>(std::move(detection))),
       around_{.announcer = outside_.announcer,
               .now = outside_.now,
+              .uptime = outside_.uptime,
               .new_id = outside_.new_id,
               .config =
                   [this] {

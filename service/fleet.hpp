@@ -28,6 +28,7 @@ class Fleet {
   struct Outside {
     Announcer& announcer;
     std::function<core::Stamp()> now;
+    std::function<core::Stamp()> uptime;  ///< as in Surroundings
     std::function<std::string(core::Stamp)> new_id;
     std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
     /// Makes a configuration durable, or throws.

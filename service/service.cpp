@@ -2,6 +2,7 @@
 // Wires broker, fleet, store and REST; starts and stops them in order.
 #include "service/service.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <map>
@@ -18,7 +19,10 @@
 #include "api/server.hpp"
 #include "service/announcements.hpp"
 #include "service/fleet.hpp"
+#include "service/health.hpp"
 #include "service/ids.hpp"
+#include "service/outbox.hpp"
+#include "service/rounds.hpp"
 #include "service/token_file.hpp"
 #include "storage/archive.hpp"
 #include "storage/writer.hpp"
@@ -28,6 +32,10 @@ namespace {
 
 namespace codecs = adapters::codecs;
 namespace mqtt = adapters::mqtt;
+using core::Outcome;
+
+constexpr std::chrono::seconds kRoundEvery{1};
+constexpr std::uint64_t kRoundsBetweenRepeats = 5;
 
 core::Stamp now() {
   return std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
@@ -41,6 +49,8 @@ api::RateLimitConfig rate_limit(const Settings& settings) {
   const auto per_s = static_cast<double>(settings.http_rate_limit_per_s);
   return {.per_s = per_s, .burst = 2.0 * per_s};
 }
+
+core::Stamp uptime() { return core::Stamp(std::chrono::steady_clock::now().time_since_epoch()); }
 
 std::uint64_t random_seed() {
   std::random_device device;
@@ -134,6 +144,9 @@ class Service::Parts final : public api::Fleet {
   void resume_robots();
   void receive(const mqtt::Topic& topic, const mqtt::Received& message);
   void say_again();
+  [[nodiscard]] std::vector<core::Degradation> degraded(const core::ServiceStatus& status) const;
+  void make_round(bool reconnected);
+  void tell(const std::vector<core::Degradation>& degraded);
 
   const Settings settings_;
   const core::Stamp started_ = now();
@@ -143,12 +156,18 @@ class Service::Parts final : public api::Fleet {
   const storage::Archive archive_;
   const StoredHistory history_{archive_};
   mqtt::Link link_;
+  Outbox outbox_;
   Announcements announcements_;
   service::Fleet fleet_;
+  mutable std::mutex health_mutex_;  // over health_
+  mutable Health health_;
+  std::vector<core::Degradation> degraded_;  // as last told; used by rounds_ only
+  std::uint64_t round_ = 0;                  // used by rounds_ only
   const TokenFile tokens_{settings_.http_tokens_file};
   api::Guard guard_;
   const api::Ports ports_{*this, history_, guard_};
   std::unique_ptr<api::Server> server_;
+  Rounds rounds_{kRoundEvery, [this](bool reconnected) { make_round(reconnected); }};
 };
 
 Service::Parts::Parts(const Settings& settings)
@@ -157,7 +176,8 @@ Service::Parts::Parts(const Settings& settings)
                .commit_every = std::chrono::milliseconds(settings.store_commit_every_ms)}),
       archive_(settings.store_file, writer_.recent()),
       link_(link_config(), link_events()),
-      announcements_(link_, writer_, settings.mqtt_publish_scores),
+      outbox_(link_, writer_, archive_),
+      announcements_(link_, writer_, outbox_, settings.mqtt_publish_scores),
       fleet_({.lanes = settings.service_lanes,
               .queue_per_robot = settings.service_queue_per_robot,
               .max_robots = settings.service_max_robots,
@@ -191,7 +211,8 @@ mqtt::LinkConfig Service::Parts::link_config() const {
                      .password = settings_.mqtt_password,
                      .ca_file = settings_.mqtt_ca_file,
                      .cert_file = settings_.mqtt_cert_file,
-                     .key_file = settings_.mqtt_key_file},
+                     .key_file = settings_.mqtt_key_file,
+                     .keep_alive = std::chrono::seconds(settings_.mqtt_keep_alive_s)},
           .client_id = settings_.mqtt_client_id,
           .topics = {.prefix = settings_.mqtt_prefix, .scan_filters = settings_.mqtt_scan_filters},
           .online = codecs::service_status_message("online", KW_VERSION, started_),
@@ -208,6 +229,7 @@ mqtt::LinkEvents Service::Parts::link_events() {
 service::Fleet::Outside Service::Parts::outside() {
   return {.announcer = announcements_,
           .now = now,
+          .uptime = uptime,
           .new_id = [this](core::Stamp at) { return ids_.next(at); },
           .log_refusal = [this](const std::string& robot,
                                 const core::BadInput& why) { log_refusal_(robot, why); },
@@ -254,10 +276,10 @@ void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& mes
                      {message.payload, std::string(message.content_type), now()});
       break;
     case mqtt::TopicKind::bad_robot_id:
-      fleet_.count(core::Outcome::bad_robot_id);
+      fleet_.count(Outcome::bad_robot_id);
       break;
     case mqtt::TopicKind::unknown:
-      fleet_.count(core::Outcome::unknown_topic);
+      fleet_.count(Outcome::unknown_topic);
       break;
     case mqtt::TopicKind::odom:
     case mqtt::TopicKind::command:
@@ -271,6 +293,56 @@ void Service::Parts::say_again() {
   for (const auto& robot : fleet_.robots()) {
     announcements_.announce_state(robot, now());
   }
+  rounds_.ask();
+}
+
+/// Sends what has not arrived, and tells what has changed for the worse or the better.
+void Service::Parts::make_round(bool reconnected) {
+  tell(status().degraded);
+  if (!reconnected && ++round_ % kRoundsBetweenRepeats != 0) {
+    return;
+  }
+  try {
+    outbox_.send_again(reconnected);
+  } catch (const storage::StorageError& error) {
+    spdlog::warn("undelivered alerts could not be read: {}", error.what());
+  }
+}
+
+void Service::Parts::tell(const std::vector<core::Degradation>& degraded) {
+  const auto is_in = [](const auto& list) {
+    return [&](const core::Degradation& one) {
+      return std::ranges::find(list, one.name, &core::Degradation::name) != list.end();
+    };
+  };
+  bool is_news = degraded.size() != degraded_.size();
+  for (const auto& one : degraded) {
+    if (!is_in(degraded_)(one)) {
+      spdlog::warn("degraded: {}", one.what);
+      is_news = true;
+    }
+  }
+  for (const auto& one : degraded_) {
+    if (!is_in(degraded)(one)) {
+      spdlog::info("no longer degraded ({})", one.name);
+    }
+  }
+  degraded_ = degraded;
+  if (is_news) {
+    link_.publish_online(codecs::service_status_message("online", KW_VERSION, started_, degraded_));
+  }
+}
+
+std::vector<core::Degradation> Service::Parts::degraded(const core::ServiceStatus& status) const {
+  const auto& aside = writer_.quarantined();
+  const std::lock_guard lock(health_mutex_);
+  return health_.look({.time = std::chrono::steady_clock::now(),
+                       .clock = now(),
+                       .broker_connected = status.broker_connected,
+                       .store_problem = writer_.problem(),
+                       .quarantined = aside ? aside->string() : "",
+                       .dropped = status.counts.at(static_cast<std::size_t>(Outcome::overload)),
+                       .lost_writes = status.lost_writes});
 }
 
 core::ServiceStatus Service::Parts::status() const {
@@ -282,10 +354,12 @@ core::ServiceStatus Service::Parts::status() const {
   status.store_healthy = writer_.healthy();
   status.queued_writes = writer_.queued();
   status.lost_writes = writer_.lost();
+  status.degraded = degraded(status);
   return status;
 }
 
 void Service::Parts::stop() {
+  rounds_.stop();
   link_.stop_receiving();
   fleet_.stop();
   link_.stop(std::chrono::seconds(5));

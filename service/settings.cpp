@@ -143,6 +143,8 @@ std::vector<Setting> table() {
       setting("mqtt.ca_file", &S::mqtt_ca_file, "certificate authority of the broker (mqtts)"),
       setting("mqtt.cert_file", &S::mqtt_cert_file, "the service's own certificate (mqtts)"),
       setting("mqtt.key_file", &S::mqtt_key_file, "the key of that certificate"),
+      bounded("mqtt.keep_alive_s", &S::mqtt_keep_alive_s, 1, 3600,
+              "a dead connection is noticed within three of these"),
       setting("mqtt.publish_scores", &S::mqtt_publish_scores, "publish every score, too"),
       setting("http.host", &S::http_host, "address to listen on"),
       setting("http.port", &S::http_port, "port to listen on; 0 takes a free one"),

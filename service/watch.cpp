@@ -35,16 +35,14 @@ void describe(core::Incident& incident, const core::Jump& jump) {
 Watch::Watch(std::string id, const Surroundings& around)
     : id_(std::move(id)), around_(around), config_(around.config()), session_(config_->config) {
   status_.id = id_;
-  status_.last_arrival = around_.now();
-  refresh_status(status_.last_arrival);
+  refresh_status(around_.now());
 }
 
 void Watch::resume(const Past& past) {
-  const core::Stamp now = around_.now();
-  session_.resume(past.natural_scores, past.open_incident.has_value(), now);
+  session_.resume(past.natural_scores, past.open_incident.has_value(), around_.uptime());
   incident_open_ = past.open_incident.has_value();
   incident_ = past.open_incident.value_or(core::Incident{});
-  refresh_status(now);
+  refresh_status(around_.now());
 }
 
 void Watch::take(const Message& message, Bench& bench) {
@@ -62,7 +60,7 @@ void Watch::take(const Message& message, Bench& bench) {
 Outcome Watch::outcome_of(const Message& message, Bench& bench) {
   try {
     bench.decoder.decode(*message.payload, message.content_type, bench.scan);
-    const core::Observation seen = session_.observe(bench.scan, message.arrival, bench.workspace);
+    const core::Observation seen = session_.observe(bench.scan, around_.uptime(), bench.workspace);
     if (seen.verdict) {
       conclude(*seen.verdict, message.arrival);
     }
@@ -115,7 +113,7 @@ void Watch::tick() {
   const core::RobotState before = status().state;
   {
     const std::lock_guard lock(mutex_);
-    status_.state = session_.state(now);
+    status_.state = session_.state(around_.uptime());
   }
   const core::RobotStatus after = status();
   if (after.state != before) {
@@ -133,7 +131,7 @@ void Watch::refresh_config() {
 
 void Watch::refresh_status(core::Stamp arrival) {
   const std::lock_guard lock(mutex_);
-  status_.state = session_.state(arrival);
+  status_.state = session_.state(around_.uptime());
   status_.last_arrival = arrival;
   status_.threshold = session_.threshold();
   status_.calibration_pairs = session_.calibration_pairs();

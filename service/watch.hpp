@@ -48,6 +48,8 @@ class Announcer {
 struct Surroundings {
   Announcer& announcer;
   std::function<core::Stamp()> now;
+  /// A clock that only ever goes on, for what lasts: the wall's may jump.
+  std::function<core::Stamp()> uptime;
   std::function<std::string(core::Stamp)> new_id;
   std::function<std::shared_ptr<const core::ConfigVersion>()> config;
   std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;

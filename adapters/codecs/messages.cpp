@@ -68,11 +68,17 @@ std::string score_message(std::string_view robot, const core::Score& score) {
 }
 
 std::string service_status_message(std::string_view status, std::string_view version,
-                                   core::Stamp started) {
+                                   core::Stamp started,
+                                   std::span<const core::Degradation> degraded) {
+  Json names = Json::array();
+  for (const auto& degradation : degraded) {
+    names.push_back(degradation.name);
+  }
   return text(Json{{"schema", kServiceStatusSchema},
                    {"status", status},
                    {"version", version},
-                   {"startedAt", rfc3339(started)}});
+                   {"startedAt", rfc3339(started)},
+                   {"degraded", names}});
 }
 
 }  // namespace kidnapwatch::adapters::codecs

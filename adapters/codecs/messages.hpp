@@ -2,6 +2,7 @@
 // What the service says over MQTT, in JSON: alerts, states, scores, its own status.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,8 +25,9 @@ inline constexpr std::string_view kServiceStatusSchema = "kidnapwatch/service-st
 
 [[nodiscard]] std::string score_message(std::string_view robot, const core::Score& score);
 
-/// `status`: online, stopped or offline.
+/// `status`: online, stopped or offline; with the names of what is degraded.
 [[nodiscard]] std::string service_status_message(std::string_view status, std::string_view version,
-                                                 core::Stamp started);
+                                                 core::Stamp started,
+                                                 std::span<const core::Degradation> degraded = {});
 
 }  // namespace kidnapwatch::adapters::codecs

@@ -17,6 +17,14 @@ Json json(const core::OutcomeCounts& counts) {
   return object;
 }
 
+Json json(const std::vector<core::Degradation>& degraded) {
+  Json list = Json::array();
+  for (const auto& [name, what] : degraded) {
+    list.push_back({{"name", name}, {"what", what}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json json(const core::RobotStatus& robot) {
@@ -42,6 +50,7 @@ Json json(const core::ServiceStatus& service) {
           {"queuedScans", service.queued_scans},
           {"queuedWrites", service.queued_writes},
           {"lostWrites", service.lost_writes},
+          {"degraded", json(service.degraded)},
           {"scans", json(service.counts)}};
 }
 

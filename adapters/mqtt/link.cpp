@@ -10,10 +10,11 @@ Link::Link(LinkConfig config, LinkEvents events)
     : config_(std::move(config)),
       events_(std::move(events)),
       topics_(config_.topics),
+      online_(config_.online),
       out_(outgoing_config(), {.on_message = {},
                                .on_connected =
                                    [this] {
-                                     out_.publish(status(config_.online));
+                                     out_.publish(status(online()));
                                      if (events_.on_connected) {
                                        events_.on_connected();
                                      }
@@ -56,6 +57,21 @@ Message Link::status(const std::string& payload) const {
   message.retain = true;
   message.content_type = config_.content_type;
   return message;
+}
+
+std::string Link::online() const {
+  const std::lock_guard lock(mutex_);
+  return online_;
+}
+
+void Link::publish_online(std::string payload) noexcept {
+  {
+    const std::lock_guard lock(mutex_);
+    online_ = std::move(payload);
+  }
+  if (out_.connected()) {  // else it is said after the connect
+    out_.publish(status(online()));
+  }
 }
 
 void Link::publish_alert(std::string_view robot, std::string payload, std::string schema,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -19,7 +20,7 @@ struct LinkConfig {
   std::string content_type = "application/json";  ///< of all that is published
   std::chrono::seconds alert_expiry{24 * 3600};   ///< at the broker, for robots that are away
   // What is retained on service/status:
-  std::string online;   ///< while the service is there
+  std::string online;   ///< while the service is there, until another is given
   std::string stopped;  ///< after it left in order
   std::string offline;  ///< after it vanished: the last will
 };
@@ -48,6 +49,8 @@ class Link {
                      std::function<void()> on_delivered = {}) noexcept;
   /// Retained: what is told of a robot to those who come later.
   void publish_state(std::string_view robot, std::string payload, std::string schema) noexcept;
+  /// Retained on service/status from now on, as long as the service is there.
+  void publish_online(std::string payload) noexcept;
   /// May be lost.
   void publish_score(std::string_view robot, std::string payload, std::string schema) noexcept;
 
@@ -66,11 +69,14 @@ class Link {
   [[nodiscard]] ClientConfig incoming_config() const;
   [[nodiscard]] ClientConfig outgoing_config() const;
   [[nodiscard]] Message status(const std::string& payload) const;
+  [[nodiscard]] std::string online() const;
   void pass_on(const Received& received) const;
 
   const LinkConfig config_;
   const LinkEvents events_;
   const Topics topics_;
+  mutable std::mutex mutex_;  // over online_
+  std::string online_;
   Client out_;  // before in_: what comes in may be answered
   Client in_;
 };

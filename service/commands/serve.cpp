@@ -45,6 +45,7 @@ int wait_for(const sigset_t& signals) {
 
 int serve(const Settings& settings) {
   log_to_stderr(settings.service_log_level);
+  (void)std::signal(SIGXFSZ, SIG_IGN);  // a file at its limit is an error to live with
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // in all threads, which are started after this
   Service service(settings);

@@ -35,12 +35,24 @@ TEST_F(ServiceTest, IsReadyWithBrokerAndStore) {
 }
 
 TEST_F(ServiceTest, SaysWhyItIsNotReady) {
-  auto response = get("/readyz");
-  EXPECT_EQ(response.status, 503);
-  EXPECT_EQ(response.body, R"({"status":"not ready","reasons":["the broker is not connected",)"
-                           R"("the store does not take writes"]})");
+  fleet.status_now.degraded = {{"broker", "the broker is not connected"},
+                               {"store", "the store does not take writes: full"}};
+  for (const bool broker : {false, true}) {
+    fleet.status_now.broker_connected = broker;
+    const auto response = get("/readyz");
+    EXPECT_EQ(response.status, 503);
+    EXPECT_EQ(response.body, R"({"status":"not ready","reasons":["the broker is not connected",)"
+                             R"("the store does not take writes: full"]})");
+  }
+}
+
+TEST_F(ServiceTest, IsReadyButDegradedWhereItStillDoesItsWork) {
   fleet.status_now.broker_connected = true;
-  EXPECT_EQ(body(get("/readyz"))["reasons"].size(), 1U);
+  fleet.status_now.store_healthy = true;
+  fleet.status_now.degraded = {{"clock", "the clock jumped by 3600 s"}};
+  const auto response = get("/readyz");
+  EXPECT_EQ(response.status, 200);
+  EXPECT_EQ(response.body, R"({"status":"degraded","reasons":["the clock jumped by 3600 s"]})");
 }
 
 TEST_F(ServiceTest, CountsInPrometheusWords) {

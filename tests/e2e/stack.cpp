@@ -11,8 +11,9 @@
 namespace kidnapwatch::test {
 
 void Stack::start_service(const std::vector<std::string>& more_flags) {
-  std::vector<std::string> words{KW_PROGRAM,    "serve", "--mqtt-url",   broker.url(),
-                                 "--http-port", "0",     "--store-file", database().string()};
+  std::vector<std::string> words = under;
+  words.insert(words.end(), {KW_PROGRAM, "serve", "--mqtt-url", broker_url, "--http-port", "0",
+                             "--store-file", database().string()});
   words.insert(words.end(), more_flags.begin(), more_flags.end());
   service.reset();
   service =
@@ -25,11 +26,11 @@ void Stack::await_ready() const {
 }
 
 void Stack::subscribe(const std::string& topic) {
-  subscriber_ =
-      std::make_unique<Process>(std::vector<std::string>{"mosquitto_sub", "-h", "127.0.0.1", "-p",
-                                                         std::to_string(broker.port()), "-t", topic,
-                                                         "-q", "1", "-F", "%U\t%t\t%p"},
-                                folder_.path() / "received", folder_.path() / "sub.log");
+  subscriber_ = std::make_unique<Process>(
+      std::vector<std::string>{"mosquitto_sub", "-h", "127.0.0.1", "-p",
+                               std::to_string(broker.port()), "-t", topic, "-q", "1", "-c", "-i",
+                               "listener", "-F", "%U\t%t\t%p"},
+      folder_.path() / "received", folder_.path() / "sub.log");
   // A message of our own, sent until it comes back, shows that the subscription stands.
   ASSERT_TRUE(eventually([&] {
     publish("kidnapwatch/v1/listener/alert", "ping");
@@ -41,6 +42,13 @@ Json Stack::robots(std::vector<std::string> words) const {
   words.insert(words.begin(), KW_PROGRAM);
   words.insert(words.end(), {"--broker", broker.url()});
   return Json::parse(output_of(words));
+}
+
+std::unique_ptr<Process> Stack::robots_in_background(std::vector<std::string> words) const {
+  words.insert(words.begin(), KW_PROGRAM);
+  words.insert(words.end(), {"--broker", broker.url()});
+  return std::make_unique<Process>(words, folder_.path() / "robots.out",
+                                   folder_.path() / "robots.log");
 }
 
 void Stack::publish(const std::string& topic, const std::string& payload) const {

@@ -33,6 +33,8 @@ class Stack {
 
   /// Runs `kidnapwatch` with these words against the broker, to its end; its one line of JSON.
   Json robots(std::vector<std::string> words) const;
+  /// The same, without waiting for its end.
+  [[nodiscard]] std::unique_ptr<Process> robots_in_background(std::vector<std::string> words) const;
   void publish(const std::string& topic, const std::string& payload) const;
 
   /// By curl; the body, whatever the status.
@@ -46,9 +48,14 @@ class Stack {
 
   [[nodiscard]] std::vector<Received> received() const;
   [[nodiscard]] std::string service_log() const { return content_of(folder_.path() / "serve.log"); }
-  [[nodiscard]] std::filesystem::path database() const { return folder_.path() / "store.db"; }
+  [[nodiscard]] std::filesystem::path database() const {
+    return store_file.empty() ? folder_.path() / "store.db" : store_file;
+  }
 
   Mosquitto broker;
+  std::string broker_url = broker.url();  ///< where the service looks for it
+  std::filesystem::path store_file;       ///< empty: in a folder of its own
+  std::vector<std::string> under;         ///< what the service is run by: faketime, fiu-run, ...
   std::unique_ptr<Process> service;
 
  private:

@@ -23,6 +23,7 @@ class FleetTest : public ::testing::Test {
   Fleet::Outside outside() {
     return {.announcer = heard_,
             .now = fixed_now,
+            .uptime = fixed_now,
             .new_id = [](core::Stamp) { return std::string("id"); },
             .log_refusal = [](const std::string&, const core::BadInput&) {},
             .save_config = [this](const core::ConfigVersion& version) { save(version); }};
@@ -92,9 +93,10 @@ class Held : public test::Heard {
 TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
   Held held;
   auto around = outside();
-  Fleet fleet({.lanes = 1, .queue_per_robot = 4},
-              {held, around.now, around.new_id, around.log_refusal, around.save_config},
-              test::with_threshold(60.0));
+  Fleet fleet(
+      {.lanes = 1, .queue_per_robot = 4},
+      {held, around.now, around.uptime, around.new_id, around.log_refusal, around.save_config},
+      test::with_threshold(60.0));
   fleet.receive("loud", test::message(round_room(2.0, 1.0), fixed_now()));
   fleet.receive("loud", test::message(round_room(2.0, 2.0), fixed_now()));
   held.reached_.get_future().wait();  // the lane is busy with the second scan

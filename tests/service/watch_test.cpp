@@ -29,11 +29,13 @@ class WatchTest : public ::testing::Test {
 
   test::Heard heard_;
   core::Stamp now_ = test::at_s(100.0);
+  std::optional<core::Stamp> uptime_;  // as now_, unless it is set
   int ids_ = 0;
   std::shared_ptr<const core::ConfigVersion> config_ =
       std::make_shared<const core::ConfigVersion>(test::with_threshold(60.0));
   Surroundings around_{.announcer = heard_,
                        .now = [this] { return now_; },
+                       .uptime = [this] { return uptime_ ? *uptime_ : now_; },
                        .new_id = [this](core::Stamp) { return std::to_string(++ids_); },
                        .config = [this] { return config_; },
                        .log_refusal = [](const std::string&, const core::BadInput&) {}};
@@ -108,6 +110,18 @@ TEST_F(WatchTest, TellsOnceThatARobotFellSilentAndOnceThatItIsBack) {
   watch_.tick();
   drive(2.0, 2);
   EXPECT_EQ(heard_.states(), (std::vector<std::string>{"r1 stale", "r1 normal"}));
+}
+
+TEST_F(WatchTest, AClockThatJumpsHidesNoSilenceAndInventsNone) {
+  drive(2.0, 2);
+  uptime_ = now_;
+  now_ = core::later_by_s(now_, 2 * 86'400.0);
+  watch_.tick();
+  EXPECT_TRUE(heard_.states().empty());
+  now_ = core::later_by_s(now_, -5 * 86'400.0);
+  uptime_ = core::later_by_s(*uptime_, 5.1);
+  watch_.tick();
+  EXPECT_EQ(heard_.states(), std::vector<std::string>{"r1 stale"});
 }
 
 TEST_F(WatchTest, ANewConfigurationTakesEffectWithTheNextScan) {

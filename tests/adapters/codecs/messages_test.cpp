@@ -112,6 +112,7 @@ TEST(ServiceStatusMessage, TellsSinceWhen) {
   EXPECT_EQ(message["status"], "online");
   EXPECT_EQ(message["version"], "1.2.3");
   EXPECT_EQ(message["startedAt"], "2023-11-14T22:13:30.500000000Z");
+  EXPECT_EQ(message["degraded"], Json::array());
 }
 
 }  // namespace
