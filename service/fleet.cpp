@@ -22,7 +22,7 @@ Fleet::Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion det
                   },
               .log_refusal = outside_.log_refusal} {
   for (std::size_t i = 0; i < config_.lanes; ++i) {
-    lanes_.push_back(std::make_unique<Lane>(config_.queue_per_robot, config_.payload));
+    lanes_.push_back(std::make_unique<Lane>(config_.lane));
   }
 }
 

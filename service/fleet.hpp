@@ -17,9 +17,8 @@ namespace kidnapwatch::service {
 
 struct FleetConfig {
   std::size_t lanes = 2;
-  std::size_t queue_per_robot = 64;
   std::size_t max_robots = 10'000;
-  adapters::codecs::ScanPayloadConfig payload;
+  LaneConfig lane;
 };
 
 /// Any thread may call anything.

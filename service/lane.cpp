@@ -2,6 +2,7 @@
 // Fair, bounded queues in front of one thread.
 #include "service/lane.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace kidnapwatch::service {
@@ -11,15 +12,47 @@ constexpr std::chrono::milliseconds kTickEvery{250};
 
 }  // namespace
 
-Lane::Lane(std::size_t queue_per_robot, const adapters::codecs::ScanPayloadConfig& payload)
-    : queue_per_robot_(queue_per_robot), bench_(payload), thread_([this] { run(); }) {}
+Lane::Lane(const LaneConfig& config)
+    : queue_per_robot_(config.queue_per_robot),
+      scans_per_s_(static_cast<double>(config.scans_per_s)),
+      bench_(config.payload),
+      thread_([this] { run(); }) {}
 
 Lane::~Lane() { stop(); }
 
 void Lane::add(std::shared_ptr<Watch> watch) {
   const std::lock_guard lock(mutex_);
   const Watch* key = watch.get();
-  inboxes_.emplace(key, Inbox{std::move(watch), {}});
+  inboxes_.emplace(key, Inbox{.watch = std::move(watch),
+                              .messages = {},
+                              .allowance = scans_per_s_,
+                              .allowed = std::chrono::steady_clock::now()});
+}
+
+/// A bucket of a second's worth, filled steadily.
+bool Lane::is_allowed(Inbox& inbox) const {
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> since = now - std::exchange(inbox.allowed, now);
+  inbox.allowance = std::min(scans_per_s_, inbox.allowance + since.count() * scans_per_s_);
+  if (inbox.allowance < 1.0) {
+    return false;
+  }
+  inbox.allowance -= 1.0;
+  return true;
+}
+
+bool Lane::put(Inbox& inbox, Message message) {
+  const bool is_full = inbox.messages.size() >= queue_per_robot_;
+  if (is_full) {
+    inbox.messages.pop_front();
+  } else {
+    ++queued_;
+  }
+  inbox.messages.push_back(std::move(message));
+  if (inbox.messages.size() == 1) {
+    ready_.push_back(&inbox);
+  }
+  return is_full;
 }
 
 void Lane::push(Watch& watch, Message message) {
@@ -27,16 +60,7 @@ void Lane::push(Watch& watch, Message message) {
   {
     const std::lock_guard lock(mutex_);
     Inbox& inbox = inboxes_.at(&watch);
-    dropped = inbox.messages.size() >= queue_per_robot_;
-    if (dropped) {
-      inbox.messages.pop_front();
-    } else {
-      ++queued_;
-    }
-    inbox.messages.push_back(std::move(message));
-    if (inbox.messages.size() == 1) {
-      ready_.push_back(&inbox);
-    }
+    dropped = !is_allowed(inbox) || put(inbox, std::move(message));
   }
   filled_.notify_one();
   if (dropped) {

@@ -16,12 +16,19 @@
 
 namespace kidnapwatch::service {
 
+struct LaneConfig {
+  std::size_t queue_per_robot = 64;
+  std::size_t scans_per_s = 500;  ///< of one robot, on average over a second
+  adapters::codecs::ScanPayloadConfig payload;
+};
+
 /// A robot belongs to one lane, so that its watch needs no lock while it computes. Each robot has a
 /// queue of its own: when that is full its oldest message is dropped and counted as `overload`, and
-/// no robot waits for more than one message of each other.
+/// no robot waits for more than one message of each other. What a robot sends above scans_per_s is
+/// dropped on arrival, and counted as `overload` too.
 class Lane {
  public:
-  Lane(std::size_t queue_per_robot, const adapters::codecs::ScanPayloadConfig& payload);
+  explicit Lane(const LaneConfig& config);
   /// Finishes what is queued, then stops.
   ~Lane();
   Lane(const Lane&) = delete;
@@ -40,13 +47,19 @@ class Lane {
   struct Inbox {
     std::shared_ptr<Watch> watch;
     std::deque<Message> messages;
+    double allowance;  // scans that it may send now
+    std::chrono::steady_clock::time_point allowed;
   };
 
   void run();
   [[nodiscard]] Message next(Inbox& inbox);
   void tick_all();
+  [[nodiscard]] bool is_allowed(Inbox& inbox) const;
+  /// True: the oldest had to go for it.
+  [[nodiscard]] bool put(Inbox& inbox, Message message);
 
   const std::size_t queue_per_robot_;
+  const double scans_per_s_;
   Bench bench_;  // used by thread_ only
   mutable std::mutex mutex_;
   std::condition_variable filled_;

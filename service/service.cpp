@@ -179,9 +179,10 @@ Service::Parts::Parts(const Settings& settings)
       outbox_(link_, writer_, archive_),
       announcements_(link_, writer_, outbox_, settings.mqtt_publish_scores),
       fleet_({.lanes = settings.service_lanes,
-              .queue_per_robot = settings.service_queue_per_robot,
               .max_robots = settings.service_max_robots,
-              .payload = {.max_payload_bytes = settings.service_max_payload_bytes}},
+              .lane = {.queue_per_robot = settings.service_queue_per_robot,
+                       .scans_per_s = settings.service_scans_per_s,
+                       .payload = {.max_payload_bytes = settings.service_max_payload_bytes}}},
              outside(), starting_config(archive_, settings)),
       guard_(token_lookup(), rate_limit(settings), monotonic_s) {
   if (!needs_tokens(settings)) {

@@ -159,6 +159,8 @@ std::vector<Setting> table() {
       bounded("service.lanes", &S::service_lanes, 1, 256, "threads that score"),
       bounded("service.queue_per_robot", &S::service_queue_per_robot, 1, 100'000,
               "scans of one robot that may wait; beyond, its oldest is dropped"),
+      bounded("service.scans_per_s", &S::service_scans_per_s, 1, 1'000'000,
+              "of one robot; what it sends beyond is dropped and counted as overload"),
       bounded("service.max_robots", &S::service_max_robots, 1, 1'000'000, "robots at most"),
       bounded("service.max_payload_bytes", &S::service_max_payload_bytes, 1024, 67'108'864,
               "a larger message is refused"),

@@ -40,6 +40,7 @@ struct Settings {
 
   std::size_t service_lanes = 2;
   std::size_t service_queue_per_robot = 64;
+  std::size_t service_scans_per_s = 500;
   std::size_t service_max_robots = 10'000;
   std::size_t service_max_payload_bytes = 262'144;
   std::string service_log_level = "info";

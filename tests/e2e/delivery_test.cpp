@@ -48,7 +48,7 @@ class Delivery : public ::testing::Test {
   /// Two robots, kidnapped and never back: their incidents stay open.
   void kidnap_two() {
     (void)stack_.robots({"simulate", "--robots", "2", "--rate", "5", "--duration", "60",
-                         "--kidnap-every", "50", "--speed", "20"});
+                         "--kidnap-every", "50", "--speed", "60"});
     ASSERT_TRUE(eventually([&] { return stored("SELECT id FROM incident").size() == 2; }));
   }
 
@@ -111,8 +111,8 @@ TEST_F(Delivery, EveryIncidentArrivesThroughKillsOfBrokerAndService) {
   stack_.subscribe("kidnapwatch/v1/+/alert");  // comes back by itself
   start_service();
   const auto robots =
-      stack_.robots_in_background({"simulate", "--robots", "4", "--rate", "5", "--duration", "400",
-                                   "--kidnap-every", "20", "--speed", "20"});
+      stack_.robots_in_background({"simulate", "--robots", "4", "--rate", "5", "--duration",
+                                   "36000", "--kidnap-every", "20", "--speed", "20"});
   for (int kill = 0; kill < 3; ++kill) {
     const auto before = stored("SELECT event_id FROM outbox");
     EXPECT_TRUE(eventually([&] { return stored("SELECT event_id FROM outbox") != before; }));

@@ -34,6 +34,10 @@ class FleetTest : public ::testing::Test {
     }
     saved_.push_back(version);
   }
+  /// All of one robot.
+  static std::uint64_t counted(const Fleet& fleet, const std::string& robot, Outcome outcome) {
+    return fleet.robot(robot)->counts.at(static_cast<std::size_t>(outcome));
+  }
   std::uint64_t counted(const Fleet& fleet, Outcome outcome) {
     core::ServiceStatus status;
     fleet.describe(status);
@@ -46,7 +50,7 @@ class FleetTest : public ::testing::Test {
 };
 
 TEST_F(FleetTest, CountsEveryMessageOfManyPublishersOnce) {
-  Fleet fleet({.lanes = 2, .queue_per_robot = 8}, outside(), test::with_threshold(60.0));
+  Fleet fleet({.lanes = 2, .lane = {.queue_per_robot = 8}}, outside(), test::with_threshold(60.0));
   constexpr int kPublishers = 4;
   constexpr int kScans = 200;
   std::vector<std::thread> publishers;
@@ -90,11 +94,27 @@ class Held : public test::Heard {
   bool holding_ = false;
 };
 
+TEST_F(FleetTest, ARobotAboveItsRateIsCutAndTheOthersAreNot) {
+  Fleet fleet({.lanes = 1, .lane = {.queue_per_robot = 10'000, .scans_per_s = 10}}, outside(),
+              test::with_threshold(60.0));
+  for (int i = 0; i < 5000; ++i) {
+    fleet.receive("loud", test::message(round_room(2.0, i), fixed_now()));
+  }
+  fleet.receive("calm", test::message(round_room(2.0, 1.0), fixed_now()));
+  fleet.stop();
+  EXPECT_GT(counted(fleet, "loud", Outcome::overload), 0U);
+  EXPECT_EQ(counted(fleet, "loud", Outcome::overload) + counted(fleet, "loud", Outcome::first) +
+                counted(fleet, "loud", Outcome::scored),
+            5000U);
+  EXPECT_EQ(counted(fleet, "calm", Outcome::first), 1U);
+  EXPECT_EQ(counted(fleet, "calm", Outcome::overload), 0U);
+}
+
 TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
   Held held;
   auto around = outside();
   Fleet fleet(
-      {.lanes = 1, .queue_per_robot = 4},
+      {.lanes = 1, .lane = {.queue_per_robot = 4}},
       {held, around.now, around.uptime, around.new_id, around.log_refusal, around.save_config},
       test::with_threshold(60.0));
   fleet.receive("loud", test::message(round_room(2.0, 1.0), fixed_now()));
