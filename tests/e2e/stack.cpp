@@ -33,7 +33,7 @@ void Stack::subscribe(const std::string& topic) {
       folder_.path() / "received", folder_.path() / "sub.log");
   // A message of our own, sent until it comes back, shows that the subscription stands.
   ASSERT_TRUE(eventually([&] {
-    publish("kidnapwatch/v1/listener/alert", "ping");
+    publish(std::regex_replace(topic, std::regex("[+]"), "listener"), "ping");
     return !received().empty();
   }));
 }

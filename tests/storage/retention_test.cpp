@@ -152,5 +152,20 @@ TEST_F(RetentionTest, AFileAtItsLimitRefusesAndMakesRoom) {
   EXPECT_LE(std::filesystem::file_size(folder_.store()), bytes + 40'960);
 }
 
+TEST_F(RetentionTest, AClockThatJumpsAheadDeletesNothing) {
+  Writer writer({.file = folder_.store(),
+                 .commit_every = std::chrono::milliseconds(1),
+                 .segments = {.scores_per_robot = 10},
+                 .retention = {.keep_scores = hours(1)}});
+  for (int i = 0; i < 10; ++i) writer.add_score("robot-2", score_at(i), at_s(i));
+  writer.flush().get();
+  for (int i = 10; i < 60; ++i) {  // packs, and deletes, along with these
+    writer.add_score("robot-2", score_at(i), at_s(48 * kHour + i));
+    writer.flush().get();
+  }
+  EXPECT_GT(count("block"), 2);
+  EXPECT_EQ(Archive(folder_.store()).scores("robot-2", at_s(0), at_s(60), 100).size(), 60U);
+}
+
 }  // namespace
 }  // namespace kidnapwatch::storage
