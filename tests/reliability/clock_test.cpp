@@ -30,7 +30,7 @@ class ClockJump : public Promise, public ::testing::WithParamInterface<const cha
 };
 
 TEST_P(ClockJump, InventsNoIncidentAndIsTold) {
-  if (std::string(KW_SANITIZED) != "" || !std::filesystem::exists(kLibrary)) {
+  if (!std::string(KW_SANITIZED).empty() || !std::filesystem::exists(kLibrary)) {
     GTEST_SKIP() << "libfaketime is absent, or cannot be loaded before a sanitizer";
   }
   set_clock("+0");

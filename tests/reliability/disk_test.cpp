@@ -77,7 +77,8 @@ TEST_F(Disk, AFullFileSystemLosesNothing) {
 }
 
 TEST_F(Disk, WritesThatFailWithENOSPCLoseNothing) {
-  if (std::string(KW_SANITIZED) != "") GTEST_SKIP() << "libfiu cannot be loaded before a sanitizer";
+  if (!std::string(KW_SANITIZED).empty())
+    GTEST_SKIP() << "libfiu cannot be loaded before a sanitizer";
   stack_.subscribe("kidnapwatch/v1/+/alert");
   stack_.under = {"fiu-run", "-x"};
   start_service();

@@ -32,9 +32,11 @@ std::vector<Score> drive(std::mt19937& random, std::size_t size = 300) {
   std::vector<Score> scores;
   auto stamp = at_s(0);
   for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t part = i / 50;
     Score score{.stamp = stamp + nanoseconds(200'000'000 + std::llround(jitter_ms(random)) * 1000),
                 .reference = stamp,
-                .threshold = i / 50 == 0 ? std::nullopt : std::optional(20.0 + i / 50 * 0.1),
+                .threshold = part == 0 ? std::nullopt
+                                       : std::optional(20.0 + 0.1 * static_cast<double>(part)),
                 .state = RobotState::normal};
     score.dissimilarity.cost = cost(random);
     score.dissimilarity.cost_per_beam = score.dissimilarity.cost / beams(random);
@@ -109,6 +111,7 @@ TEST(AsStored, CostsKeepSixteenBits) {
 
 std::vector<ArrivedScore> arrived(const std::vector<double>& stamps_s) {
   std::vector<ArrivedScore> scores;
+  scores.reserve(stamps_s.size());
   for (const double t : stamps_s) {
     scores.push_back({score_at(t), at_s(1000.0 + static_cast<double>(scores.size()))});
   }

@@ -42,6 +42,7 @@ class SegmentsTest : public testing::Test {
 
   std::vector<ScoreRow> next_rows(int robots) {
     std::vector<ScoreRow> rows;
+    rows.reserve(static_cast<std::size_t>(robots));
     for (int i = 0; i < robots; ++i) {
       rows.push_back({"robot-" + std::to_string(i), score_at(clock_), at_s(clock_)});
     }
