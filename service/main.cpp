@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   service::add_replay(app, chosen);
   service::add_simulate(app, chosen);
   service::add_token(app, chosen);
-  service::add_check_config(app, chosen);
   service::add_evaluate(app, chosen);
+  service::add_check_config(app, chosen);
   return run(app, chosen, argc, argv);
 }

@@ -30,8 +30,7 @@ void add_serve(CLI::App& app, Command& chosen);
 void add_replay(CLI::App& app, Command& chosen);
 void add_simulate(CLI::App& app, Command& chosen);
 void add_token(CLI::App& app, Command& chosen);
-void add_check_config(CLI::App& app, Command& chosen);
 void add_evaluate(CLI::App& app, Command& chosen);
-void add_evaluate_localization(CLI::App& evaluate_command, Command& chosen);
+void add_check_config(CLI::App& app, Command& chosen);
 
 }  // namespace kidnapwatch::service

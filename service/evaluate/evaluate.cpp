@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "service/commands/commands.hpp"
+#include "service/evaluate/localization.hpp"
 
 namespace kidnapwatch::service {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `evaluate localization`: how well Monte Carlo localization follows a recorded run.
+#include "service/evaluate/localization.hpp"
+
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -14,7 +16,6 @@
 #include "adapters/logs/log.hpp"
 #include "core/baselines/localization.hpp"
 #include "core/baselines/mapping.hpp"
-#include "service/commands/commands.hpp"
 
 namespace kidnapwatch::service {
 namespace {
@@ -89,7 +90,7 @@ std::string to_json(const core::Recording& run, const baselines::Localization& l
   return adapters::codecs::text(json);
 }
 
-int evaluate(LocalizationOptions options) {
+int follow(LocalizationOptions options) {
   if (options.map.empty() == options.map_from.empty()) {
     throw core::BadInput("--map", "give either --map or --map-from");
   }
@@ -137,14 +138,14 @@ void add_options(CLI::App& command, LocalizationOptions& options) {
 
 }  // namespace
 
-void add_evaluate_localization(CLI::App& evaluate_command, Command& chosen) {
-  auto* command = evaluate_command.add_subcommand(
-      "localization", "Follow a recorded run by Monte Carlo localization");
+void add_evaluate_localization(CLI::App& evaluate, Command& chosen) {
+  auto* command =
+      evaluate.add_subcommand("localization", "Follow a recorded run by Monte Carlo localization");
   command->footer(
       "Example: kidnapwatch evaluate localization run.log.gz --map floor.yaml --lidar 0.25:0:0");
   const auto options = std::make_shared<LocalizationOptions>();
   add_options(*command, *options);
-  command->callback([=, &chosen] { chosen = [=] { return evaluate(*options); }; });
+  command->callback([=, &chosen] { chosen = [=] { return follow(*options); }; });
 }
 
 }  // namespace kidnapwatch::service
