@@ -115,12 +115,21 @@ void judge_dimensions(std::span<const Condition> conditions, const Reading& read
   };
   for (const auto gate : {Gate::never, Gate::always}) compare(gate, plain);
   for (const auto gate : {Gate::paper, Gate::homogeneous}) compare(gate, quasi);
-  const std::string why =
-      "The cases are all maps, reaches and noises that were run. Points tell where a range was "
-      "measured, ranges alone do not.";
-  add({"2", "Warping points (2-D) separates better than warping ranges (1-D).", {}, {}, why}, plain,
-      claims);
-  add({"3", "QS-2DDTW separates better than QS-1DDTW.", {}, {}, why}, quasi, claims);
+  const std::string where = "The cases are all maps, reaches and noises that were run. ";
+  add({"2",
+       "Warping points (2-D) separates better than warping ranges (1-D).",
+       {},
+       {},
+       where + "Points tell where a range was measured, ranges alone do not."},
+      plain, claims);
+  add({"3",
+       "QS-2DDTW separates better than QS-1DDTW.",
+       {},
+       {},
+       where + "The gate switches between metres and deviations. Ranges spread over less than 1 m, "
+               "so that a natural pair's score grows when it is standardized, beyond that of "
+               "kidnappings that are not; points spread over more, and it shrinks."},
+      quasi, claims);
 }
 
 void judge_gate(Gate gate, std::span<const Condition> conditions, const Reading& reading,
@@ -142,10 +151,11 @@ void judge_gate(Gate gate, std::span<const Condition> conditions, const Reading&
                     "where raw 2-D DTW fails.",
        {},
        {},
-       as_printed ? "1 < V < c on both axes is rare: the score is the raw one nearly everywhere."
-                  : "Natural pairs have like variances and get a small score in deviations; a "
-                    "kidnapping changes them and keeps its large one in metres: the gate itself "
-                    "does the detecting, and fails where it does not fire."},
+       as_printed
+           ? "1 < V < c on both axes is rare: the score is the raw one nearly everywhere."
+           : "Natural pairs have like variances and get a score in deviations, which is smaller "
+             "where points spread over more than 1 m; a kidnapping changes the variances and "
+             "keeps its score in metres. The gate does the detecting; in a ring it cannot."},
       cases, claims);
 }
 

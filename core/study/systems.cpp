@@ -15,7 +15,6 @@ using baselines::Mcl;
 using baselines::MclUpdate;
 using baselines::Relocalization;
 
-constexpr std::array<std::string_view, 2> kDimensions{"1ddtw", "2ddtw"};
 constexpr std::array<std::string_view, 2> kGates{"paper", "homogeneous"};
 constexpr std::array<std::string_view, 3> kTests{"bartlett", "levene", "brown_forsythe"};
 constexpr std::array<std::string_view, 2> kInvalid{"drop", "clamp"};

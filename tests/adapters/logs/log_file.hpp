@@ -18,13 +18,15 @@ namespace kidnapwatch::adapters::logs {
 
 /// A directory of its own for every test.
 class LogFileTest : public ::testing::Test {
+ public:
+  ~LogFileTest() override { std::filesystem::remove_all(directory_); }
+
  protected:
   LogFileTest() {
     std::string path = (std::filesystem::temp_directory_path() / "kidnapwatch-log-XXXXXX").string();
     EXPECT_NE(mkdtemp(path.data()), nullptr);
     directory_ = path;
   }
-  ~LogFileTest() override { std::filesystem::remove_all(directory_); }
 
   [[nodiscard]] std::filesystem::path plain(const std::string& name, std::string_view text) const {
     std::ofstream(directory_ / name, std::ios::binary) << text;
@@ -33,7 +35,7 @@ class LogFileTest : public ::testing::Test {
 
   [[nodiscard]] std::filesystem::path gzipped(const std::string& name,
                                               std::string_view text) const {
-    const auto file = directory_ / name;
+    auto file = directory_ / name;
     gzFile gz = gzopen(file.c_str(), "wb6");
     EXPECT_EQ(gzwrite(gz, text.data(), static_cast<unsigned>(text.size())),
               static_cast<int>(text.size()));
