@@ -217,11 +217,11 @@ Pose Mcl::anywhere() {
   const GridLayout& layout = map_->distances().layout;
   const std::vector<std::size_t>& free = map_->free_cells();
   const auto cell = static_cast<long>(free[random_() % free.size()]);
+  const long column = cell % layout.columns;
+  const long row = cell / layout.columns;
   const double heading_rad = std::numbers::pi * (1.0 - 2.0 * uniform(random_));
-  return {layout.origin_x_m +
-              (static_cast<double>(cell % layout.columns) + uniform(random_)) * layout.cell_m,
-          layout.origin_y_m +
-              (static_cast<double>(cell / layout.columns) + uniform(random_)) * layout.cell_m,
+  return {layout.origin_x_m + (static_cast<double>(column) + uniform(random_)) * layout.cell_m,
+          layout.origin_y_m + (static_cast<double>(row) + uniform(random_)) * layout.cell_m,
           heading_rad};
 }
 

@@ -84,13 +84,13 @@ double MeasuredMap::of_end_points(const Pose& T_map_base, const BeamSubset& beam
   const auto s = per_m * static_cast<float>(std::sin(T_map_base.theta_rad));
   const auto last_column = static_cast<float>(layout.columns + 1);
   const auto last_row = static_cast<float>(layout.rows + 1);
-  const auto stride = static_cast<int>(layout.columns + 2);
+  const long stride = layout.columns + 2;
   float sum = 0.0F;
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const float column = std::clamp(x + c * beams.x_m[i] - s * beams.y_m[i], 0.0F, last_column);
     const float row = std::clamp(y + s * beams.x_m[i] + c * beams.y_m[i], 0.0F, last_row);
-    sum += log_field_[static_cast<std::size_t>(static_cast<int>(row) * stride +
-                                               static_cast<int>(column))];
+    const long cell = static_cast<long>(row) * stride + static_cast<long>(column);
+    sum += log_field_[static_cast<std::size_t>(cell)];
   }
   return static_cast<double>(sum) / static_cast<double>(beams.size());
 }

@@ -147,9 +147,12 @@ class Matcher {
     for (long turn = -turns; turn <= turns; ++turn) {
       Pose by{0.0, 0.0, static_cast<double>(turn) * kCoarseTurn};
       const Cloud ends = seen_from(corrected(seed, by) * config_.mapping.T_base_lidar, points);
-      for (long i = 0; i < (2 * across + 1) * (2 * across + 1); ++i) {
-        by.x_m = static_cast<double>(i / (2 * across + 1) - across) * kCoarse;
-        by.y_m = static_cast<double>(i % (2 * across + 1) - across) * kCoarse;
+      const long side = 2 * across + 1;
+      for (long i = 0; i < side * side; ++i) {
+        const long column = i / side - across;
+        const long row = i % side - across;
+        by.x_m = static_cast<double>(column) * kCoarse;
+        by.y_m = static_cast<double>(row) * kCoarse;
         double sum = 0.0;
         for (std::size_t k = 0; k < ends.size(); ++k) {
           sum += blur_.nearest(ends.x[k] + by.x_m, ends.y[k] + by.y_m);
