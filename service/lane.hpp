@@ -55,7 +55,7 @@ class Lane {
   [[nodiscard]] Message next(Inbox& inbox);
   void tick_all();
   [[nodiscard]] bool is_allowed(Inbox& inbox) const;
-  /// True: the oldest had to go for it.
+  /// True: a scan had to go for it.
   [[nodiscard]] bool put(Inbox& inbox, Message message);
 
   const std::size_t queue_per_robot_;
