@@ -8,11 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/cause.hpp"
 #include "core/session.hpp"
 
 namespace kidnapwatch::core {
 
-enum class IncidentKind : std::uint8_t { teleport, carry };
+using IncidentKind = Cause;
 enum class IncidentState : std::uint8_t { open, acknowledged, resolved };
 /// What an alert tells of an incident.
 enum class AlertType : std::uint8_t {
@@ -24,7 +25,6 @@ enum class AlertType : std::uint8_t {
   shelved
 };
 
-[[nodiscard]] std::string_view name(IncidentKind kind);
 [[nodiscard]] std::string_view name(IncidentState state);
 [[nodiscard]] std::string_view name(AlertType type);
 /// The inverse of name(). Throws BadInput naming `field` for any other text.

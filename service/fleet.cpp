@@ -31,9 +31,17 @@ void Fleet::resume(const std::string& robot, const Past& past) {
 }
 
 void Fleet::receive(const std::string& robot, Message message) {
+  if (message.is_odometry && !is_known(robot)) {
+    return;  // it is scans that make a robot
+  }
   if (const auto found = member(robot)) {
     found->lane->push(*found->watch, std::move(message));
   }
+}
+
+bool Fleet::is_known(const std::string& robot) const {
+  const std::lock_guard lock(mutex_);
+  return members_.contains(robot);
 }
 
 std::optional<Fleet::Member> Fleet::member(const std::string& robot) {

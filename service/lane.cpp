@@ -24,11 +24,13 @@ void Lane::add(std::shared_ptr<Watch> watch) {
 
 void Lane::push(Watch& watch, Message message) {
   bool dropped = false;
+  bool counts = false;  // odometry is no scan
   {
     const std::lock_guard lock(mutex_);
     Inbox& inbox = inboxes_.at(&watch);
     dropped = inbox.messages.size() >= queue_per_robot_;
     if (dropped) {
+      counts = !inbox.messages.front().is_odometry;
       inbox.messages.pop_front();
     } else {
       ++queued_;
@@ -39,7 +41,7 @@ void Lane::push(Watch& watch, Message message) {
     }
   }
   filled_.notify_one();
-  if (dropped) {
+  if (counts) {
     watch.count(core::Outcome::overload);
   }
 }

@@ -250,8 +250,9 @@ void Service::Parts::resume_robots() {
 void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& message) {
   switch (topic.kind) {
     case mqtt::TopicKind::scan:
-      fleet_.receive(std::string(topic.robot),
-                     {message.payload, std::string(message.content_type), now()});
+    case mqtt::TopicKind::odom:
+      fleet_.receive(std::string(topic.robot), {message.payload, std::string(message.content_type),
+                                                now(), topic.kind == mqtt::TopicKind::odom});
       break;
     case mqtt::TopicKind::bad_robot_id:
       fleet_.count(core::Outcome::bad_robot_id);
@@ -259,7 +260,6 @@ void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& mes
     case mqtt::TopicKind::unknown:
       fleet_.count(core::Outcome::unknown_topic);
       break;
-    case mqtt::TopicKind::odom:
     case mqtt::TopicKind::command:
     case mqtt::TopicKind::own:
       break;

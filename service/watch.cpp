@@ -26,6 +26,8 @@ void describe(core::Incident& incident, const core::Jump& jump) {
   incident.state = core::IncidentState::open;
   incident.before_stamp = jump.scans.before.stamp;
   incident.after_stamp = jump.scans.after.stamp;
+  incident.kind = jump.cause;
+  incident.detector = jump.detector;
   incident.score = jump.score;
   incident.threshold = jump.threshold;
 }
@@ -48,6 +50,10 @@ void Watch::resume(const Past& past) {
 }
 
 void Watch::take(const Message& message, Bench& bench) {
+  if (message.is_odometry) {
+    take_odometry(message, bench);
+    return;
+  }
   refresh_config();
   const core::Stamp arrival = message.arrival;
   const core::RobotState before = status().state;
@@ -59,9 +65,21 @@ void Watch::take(const Message& message, Bench& bench) {
   }
 }
 
+void Watch::take_odometry(const Message& message, Bench& bench) {
+  try {
+    const auto [stamp, pose] = bench.odometry.decode(*message.payload);
+    odometry_.add(stamp, pose);
+  } catch (const core::BadInput& bad) {
+    around_.log_refusal(id_, bad);
+  }
+}
+
 Outcome Watch::outcome_of(const Message& message, Bench& bench) {
   try {
     bench.decoder.decode(*message.payload, message.content_type, bench.scan);
+    if (!bench.scan.odometry) {
+      bench.scan.odometry = odometry_.at(bench.scan.stamp);
+    }
     const core::Observation seen = session_.observe(bench.scan, message.arrival, bench.workspace);
     if (seen.verdict) {
       conclude(*seen.verdict, message.arrival);
@@ -89,13 +107,11 @@ void Watch::conclude(const core::Verdict& verdict, core::Stamp arrival) {
 void Watch::change_incident(core::EpisodeChange change, core::Stamp now) {
   std::optional<core::ScanPair> evidence;
   if (change == core::EpisodeChange::opened) {
-    incident_ =
-        core::Incident{.id = around_.new_id(now),
-                       .robot = id_,
-                       .opened_at = now,
-                       .scan_stamp = incident_.scan_stamp,
-                       .detector = std::string(core::detector_name(config_->config.dissimilarity)),
-                       .config_version = config_->version};
+    incident_ = core::Incident{.id = around_.new_id(now),
+                               .robot = id_,
+                               .opened_at = now,
+                               .scan_stamp = incident_.scan_stamp,
+                               .config_version = config_->version};
   }
   if (change == core::EpisodeChange::resolved) {
     incident_.state = core::IncidentState::resolved;
@@ -116,6 +132,9 @@ void Watch::tick() {
   {
     const std::lock_guard lock(mutex_);
     status_.state = session_.state(now);
+    if (status_.state != core::RobotState::degraded) {
+      status_.trouble.reset();
+    }
   }
   const core::RobotStatus after = status();
   if (after.state != before) {
@@ -134,6 +153,7 @@ void Watch::refresh_config() {
 void Watch::refresh_status(core::Stamp arrival) {
   const std::lock_guard lock(mutex_);
   status_.state = session_.state(arrival);
+  status_.trouble = status_.state == core::RobotState::degraded ? session_.trouble() : std::nullopt;
   status_.last_arrival = arrival;
   status_.threshold = session_.threshold();
   status_.calibration_pairs = session_.calibration_pairs();

@@ -11,8 +11,10 @@
 #include <span>
 #include <string>
 
+#include "adapters/codecs/odometry_json.hpp"
 #include "adapters/codecs/scan_payload.hpp"
 #include "core/incident.hpp"
+#include "core/odometry_track.hpp"
 #include "core/status.hpp"
 
 namespace kidnapwatch::service {
@@ -22,6 +24,7 @@ struct Message {
   std::shared_ptr<const std::string> payload;  ///< never null
   std::string content_type;                    ///< MQTT 5; empty if the publisher told none
   core::Stamp arrival;
+  bool is_odometry = false;  ///< else a scan
 };
 
 /// What a thread needs to take scans, whatever robot they are of. It holds no state of a robot.
@@ -29,6 +32,7 @@ struct Bench {
   explicit Bench(const adapters::codecs::ScanPayloadConfig& payload) : decoder(payload) {}
 
   adapters::codecs::ScanDecoder decoder;
+  adapters::codecs::OdometryDecoder odometry;
   core::Scan scan;
   core::DissimilarityWorkspace workspace;
 };
@@ -65,7 +69,7 @@ class Watch {
 
   void resume(const Past& past);
 
-  /// On the robot's lane: one scan, to its end.
+  /// On the robot's lane: one scan, to its end; or odometry, kept for the scans that have none.
   void take(const Message& message, Bench& bench);
   /// On the robot's lane, now and then: tells when the robot fell silent.
   void tick();
@@ -76,6 +80,7 @@ class Watch {
   [[nodiscard]] const std::string& id() const noexcept { return id_; }
 
  private:
+  void take_odometry(const Message& message, Bench& bench);
   [[nodiscard]] core::Outcome outcome_of(const Message& message, Bench& bench);
   void conclude(const core::Verdict& verdict, core::Stamp arrival);
   void change_incident(core::EpisodeChange change, core::Stamp now);
@@ -86,6 +91,7 @@ class Watch {
   const Surroundings& around_;
   std::shared_ptr<const core::ConfigVersion> config_;
   core::Session session_;
+  core::OdometryTrack odometry_;
   core::Incident incident_;  // the latest; meaningless before the first
   bool incident_open_ = false;
 

@@ -33,5 +33,6 @@ void add_token(CLI::App& app, Command& chosen);
 void add_check_config(CLI::App& app, Command& chosen);
 void add_evaluate(CLI::App& app, Command& chosen);
 void add_evaluate_localization(CLI::App& evaluate_command, Command& chosen);
+void add_evaluate_logs(CLI::App& evaluate_command, Command& chosen);
 
 }  // namespace kidnapwatch::service

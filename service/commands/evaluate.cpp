@@ -10,6 +10,7 @@ void add_evaluate(CLI::App& app, Command& chosen) {
   auto* command = app.add_subcommand("evaluate", "Measure detectors and the baselines");
   command->require_subcommand(1);
   add_evaluate_localization(*command, chosen);
+  add_evaluate_logs(*command, chosen);
 }
 
 }  // namespace kidnapwatch::service

@@ -70,6 +70,7 @@ inline Message message(std::string payload, core::Stamp arrival) {
 
 inline core::ConfigVersion with_threshold(double threshold) {
   core::ConfigVersion version;
+  version.config.alarm = core::AlarmBy::qs2ddtw;
   version.config.threshold = threshold;
   return version;
 }

@@ -128,6 +128,7 @@ TEST_F(FleetTest, RefusesStrangeNamesAndTooManyRobots) {
 TEST_F(FleetTest, PutsAConfigurationOnlyOnceItIsSaved) {
   Fleet fleet({.lanes = 1}, outside(), {});
   core::DetectionConfig config;
+  config.alarm = core::AlarmBy::qs2ddtw;
   config.threshold = 70.0;
   EXPECT_EQ(fleet.put_config(config, 0, "me").version, 1);
   EXPECT_EQ(saved_.at(0).config.threshold, 70.0);
