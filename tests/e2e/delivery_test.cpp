@@ -48,7 +48,7 @@ class Delivery : public ::testing::Test {
   /// Two robots, kidnapped and never back: their incidents stay open.
   void kidnap_two() {
     (void)stack_.robots({"simulate", "--robots", "2", "--rate", "5", "--duration", "60",
-                         "--kidnap-every", "50", "--speed", "60"});
+                         "--kidnap-every", "50", "--speed", "10"});
     ASSERT_TRUE(eventually([&] { return stored("SELECT id FROM incident").size() == 2; }));
   }
 

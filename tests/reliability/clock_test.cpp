@@ -19,7 +19,7 @@ class ClockJump : public Promise, public ::testing::WithParamInterface<const cha
   }
   void drive(int seed) {
     const Json sent = stack_.robots({"simulate", "--robots", "3", "--rate", "5", "--duration", "60",
-                                     "--speed", "60", "--seed", std::to_string(seed)});
+                                     "--speed", "10", "--seed", std::to_string(seed)});
     sent_ += sent.at("scans").get<std::uint64_t>();
     EXPECT_TRUE(eventually([&] { return stack_.counted() >= sent_; }));
   }

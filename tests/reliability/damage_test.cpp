@@ -23,7 +23,7 @@ void spoil(const std::filesystem::path& file, std::mt19937& chance) {
 TEST_F(Damage, ADamagedStoreIsPutAsideAndAFreshOneStartedWithinTenSeconds) {
   start_service();
   (void)stack_.robots({"simulate", "--robots", "5", "--rate", "5", "--duration", "60",
-                       "--kidnap-every", "50", "--speed", "60"});
+                       "--kidnap-every", "50", "--speed", "10"});
   stack_.service->signal(SIGTERM);
   (void)stack_.service->wait();
   std::mt19937 chance(1);

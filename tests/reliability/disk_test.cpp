@@ -14,7 +14,7 @@ class Disk : public Promise {
   void drive(const std::string& name, int seed) {
     sent_ += stack_
                  .robots({"simulate", "--robots", "2", "--rate", "5", "--duration", "60",
-                          "--kidnap-every", "50", "--speed", "60", "--name", name, "--seed",
+                          "--kidnap-every", "50", "--speed", "10", "--name", name, "--seed",
                           std::to_string(seed)})
                  .at("scans")
                  .get<std::uint64_t>();

@@ -37,13 +37,15 @@ struct Captured {
 };
 
 class EvaluateLocalization : public ::testing::Test {
+ public:
+  ~EvaluateLocalization() override { std::filesystem::remove_all(directory_); }
+
  protected:
   EvaluateLocalization() {
     std::string path = (std::filesystem::temp_directory_path() / "kidnapwatch-XXXXXX").string();
     EXPECT_NE(mkdtemp(path.data()), nullptr);
     directory_ = path;
   }
-  ~EvaluateLocalization() override { std::filesystem::remove_all(directory_); }
 
   [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
     std::ofstream(directory_ / name, std::ios::binary) << text;
