@@ -28,6 +28,13 @@ void check(const CalibrationConfig& config) {
           "calibration.warmup_pairs", "must be from 20 to window_pairs");
 }
 
+void check(const std::vector<std::string>& detectors) {
+  for (auto one = detectors.begin(); one != detectors.end(); ++one) {
+    (void)detector_id(*one, "detectors");
+    require(std::find(detectors.begin(), one, *one) == one, "detectors", "must not repeat a name");
+  }
+}
+
 }  // namespace
 
 void check(const DetectionConfig& config) {
@@ -35,6 +42,7 @@ void check(const DetectionConfig& config) {
   require(significance > 0.0 && significance < 1.0, "dissimilarity.significance",
           "must be above 0 and below 1");
   check(config.calibration);
+  check(config.detectors);
   require(!config.threshold || is_positive(*config.threshold), "threshold",
           "must be finite and above 0, or null to calibrate it");
   require(is_positive(config.stale_after_s), "stale_after_s", "must be finite and above 0");

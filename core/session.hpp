@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/calibration.hpp"
+#include "core/detector_scores.hpp"
 #include "core/dissimilarity.hpp"
 #include "core/outcome.hpp"
 #include "core/robot.hpp"
@@ -18,9 +21,10 @@ namespace kidnapwatch::core {
 struct DetectionConfig {
   DissimilarityConfig dissimilarity;
   CalibrationConfig calibration;
-  std::optional<double> threshold;  ///< overrides the calibrated one; unit of the raw score
-  double stale_after_s = 5.0;       ///< without a scan, by time of arrival
-  double resolve_after_s = 30.0;    ///< without a jump, by stamp; then an incident ends
+  std::optional<double> threshold;     ///< overrides the calibrated one; unit of the raw score
+  std::vector<std::string> detectors;  ///< to be recorded beside the one above, by name
+  double stale_after_s = 5.0;          ///< without a scan, by time of arrival
+  double resolve_after_s = 30.0;       ///< without a jump, by stamp; then an incident ends
   std::size_t resync_scans = 20;  ///< old stamps in a row that mean the robot's clock was set back
 
   friend bool operator==(const DetectionConfig&, const DetectionConfig&) = default;
@@ -36,6 +40,7 @@ struct Score {
   Dissimilarity dissimilarity;
   std::optional<double> threshold;         ///< nothing while warming up
   RobotState state = RobotState::unknown;  ///< after this scan
+  std::vector<DetectorScore> others;       ///< of DetectionConfig::detectors that had an opinion
 
   friend bool operator==(const Score&, const Score&) = default;
 };
@@ -106,6 +111,9 @@ class Session {
 
   /// Natural pairs that the calibrated threshold rests on, of warmup_pairs needed.
   [[nodiscard]] std::size_t calibration_pairs() const { return calibration_.pairs(); }
+
+  /// The last good scan; meaningless before the first.
+  [[nodiscard]] const Scan& reference() const { return reference_; }
 
   /// The latest jump that opened or updated an incident; nothing before the first one.
   [[nodiscard]] const std::optional<Jump>& jump() const { return jump_; }

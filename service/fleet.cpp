@@ -32,9 +32,15 @@ void Fleet::resume(const std::string& robot, const Past& past) {
 }
 
 void Fleet::receive(const std::string& robot, Message message) {
-  if (const auto found = member(robot)) {
+  const bool is_welcome = message.kind == MessageKind::scan || is_known(robot);
+  if (const auto found = is_welcome ? member(robot) : std::nullopt) {
     found->lane->push(*found->watch, std::move(message));
   }
+}
+
+bool Fleet::is_known(const std::string& robot) const {
+  const std::lock_guard lock(mutex_);
+  return members_.contains(robot);
 }
 
 std::optional<Fleet::Member> Fleet::member(const std::string& robot) {

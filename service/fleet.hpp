@@ -40,7 +40,8 @@ class Fleet {
   /// A robot that an earlier run of the service knew. Before the first receive().
   void resume(const std::string& robot, const Past& past);
 
-  /// A scan of `robot`, which need not be known nor be a robot id.
+  /// A scan of `robot`, which need not be known nor be a robot id; or what else it sends, ignored
+  /// until it sent a scan.
   void receive(const std::string& robot, Message message);
   /// A message that belongs to no robot.
   void count(core::Outcome outcome);
@@ -64,6 +65,7 @@ class Fleet {
     Lane* lane;
   };
 
+  [[nodiscard]] bool is_known(const std::string& robot) const;
   [[nodiscard]] std::optional<Member> member(const std::string& robot);
   [[nodiscard]] Member& join(const std::string& robot);
 

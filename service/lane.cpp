@@ -42,8 +42,9 @@ bool Lane::is_allowed(Inbox& inbox) const {
 }
 
 bool Lane::put(Inbox& inbox, Message message) {
-  const bool is_full = inbox.messages.size() >= queue_per_robot_;
-  if (is_full) {
+  bool lost_scan = false;
+  if (inbox.messages.size() >= queue_per_robot_) {
+    lost_scan = inbox.messages.front().kind == MessageKind::scan;
     inbox.messages.pop_front();
   } else {
     ++queued_;
@@ -52,18 +53,19 @@ bool Lane::put(Inbox& inbox, Message message) {
   if (inbox.messages.size() == 1) {
     ready_.push_back(&inbox);
   }
-  return is_full;
+  return lost_scan;
 }
 
 void Lane::push(Watch& watch, Message message) {
-  bool dropped = false;
+  const bool is_scan = message.kind == MessageKind::scan;
+  bool lost_scan = false;
   {
     const std::lock_guard lock(mutex_);
     Inbox& inbox = inboxes_.at(&watch);
-    dropped = !is_allowed(inbox) || put(inbox, std::move(message));
+    lost_scan = is_allowed(inbox) ? put(inbox, std::move(message)) : is_scan;
   }
   filled_.notify_one();
-  if (dropped) {
+  if (lost_scan) {
     watch.count(core::Outcome::overload);
   }
 }

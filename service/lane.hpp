@@ -18,14 +18,14 @@ namespace kidnapwatch::service {
 
 struct LaneConfig {
   std::size_t queue_per_robot = 64;
-  std::size_t scans_per_s = 500;  ///< of one robot, on average over a second
+  std::size_t scans_per_s = 500;  ///< messages of one robot, on average over a second
   adapters::codecs::ScanPayloadConfig payload;
 };
 
 /// A robot belongs to one lane, so that its watch needs no lock while it computes. Each robot has a
-/// queue of its own: when that is full its oldest message is dropped and counted as `overload`, and
-/// no robot waits for more than one message of each other. What a robot sends above scans_per_s is
-/// dropped on arrival, and counted as `overload` too.
+/// queue of its own: when that is full its oldest message is dropped, counted as `overload` if it
+/// was a scan, and no robot waits for more than one message of each other. What a robot sends above
+/// scans_per_s is dropped on arrival, and its scans are counted as `overload` too.
 class Lane {
  public:
   explicit Lane(const LaneConfig& config);
@@ -55,7 +55,7 @@ class Lane {
   [[nodiscard]] Message next(Inbox& inbox);
   void tick_all();
   [[nodiscard]] bool is_allowed(Inbox& inbox) const;
-  /// True: the oldest had to go for it.
+  /// True: a scan had to go for it.
   [[nodiscard]] bool put(Inbox& inbox, Message message);
 
   const std::size_t queue_per_robot_;

@@ -273,8 +273,13 @@ void Service::Parts::resume_robots() {
 void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& message) {
   switch (topic.kind) {
     case mqtt::TopicKind::scan:
+    case mqtt::TopicKind::particles:
       fleet_.receive(std::string(topic.robot),
-                     {message.payload, std::string(message.content_type), now()});
+                     {.payload = message.payload,
+                      .content_type = std::string(message.content_type),
+                      .arrival = now(),
+                      .kind = topic.kind == mqtt::TopicKind::scan ? MessageKind::scan
+                                                                  : MessageKind::particles});
       break;
     case mqtt::TopicKind::bad_robot_id:
       fleet_.count(Outcome::bad_robot_id);

@@ -33,7 +33,11 @@ void describe(core::Incident& incident, const core::Jump& jump) {
 }  // namespace
 
 Watch::Watch(std::string id, const Surroundings& around)
-    : id_(std::move(id)), around_(around), config_(around.config()), session_(config_->config) {
+    : id_(std::move(id)),
+      around_(around),
+      config_(around.config()),
+      session_(config_->config),
+      others_(config_->config) {
   status_.id = id_;
   refresh_status(around_.now());
 }
@@ -47,6 +51,10 @@ void Watch::resume(const Past& past) {
 
 void Watch::take(const Message& message, Bench& bench) {
   refresh_config();
+  if (message.kind == MessageKind::particles) {
+    take_particles(message, bench);
+    return;
+  }
   const core::Stamp arrival = message.arrival;
   const core::RobotState before = status().state;
   count(outcome_of(message, bench));
@@ -57,12 +65,25 @@ void Watch::take(const Message& message, Bench& bench) {
   }
 }
 
+void Watch::take_particles(const Message& message, Bench& bench) {
+  if (!others_.need_particles()) {
+    return;
+  }
+  try {
+    others_.take_particles(bench.particles.decode(*message.payload));
+  } catch (const core::BadInput& bad) {
+    around_.log_refusal(id_, bad);
+  }
+}
+
 Outcome Watch::outcome_of(const Message& message, Bench& bench) {
   try {
     bench.decoder.decode(*message.payload, message.content_type, bench.scan);
-    const core::Observation seen = session_.observe(bench.scan, around_.uptime(), bench.workspace);
+    core::Observation seen = session_.observe(bench.scan, around_.uptime(), bench.workspace);
     if (seen.verdict) {
       conclude(*seen.verdict, message.arrival);
+    } else if (seen.outcome == Outcome::first) {
+      (void)others_.observe(session_.reference());
     }
     return seen.outcome;
   } catch (const core::BadScan& bad) {
@@ -74,11 +95,12 @@ Outcome Watch::outcome_of(const Message& message, Bench& bench) {
   }
 }
 
-void Watch::conclude(const core::Verdict& verdict, core::Stamp arrival) {
+void Watch::conclude(core::Verdict& verdict, core::Stamp arrival) {
   if (verdict.change) {  // first: a full disk or a slow store must not hide a kidnapping
     incident_.scan_stamp = verdict.score.stamp;
     change_incident(*verdict.change, around_.now());
   }
+  verdict.score.others = others_.observe(session_.reference());
   around_.announcer.announce_score(id_, verdict.score, arrival);
   const std::lock_guard lock(mutex_);
   status_.score = verdict.score;
@@ -125,6 +147,10 @@ void Watch::refresh_config() {
   auto current = around_.config();
   if (current->version != config_->version) {
     session_.configure(current->config);
+    if (current->config.detectors != config_->config.detectors ||
+        current->config.dissimilarity != config_->config.dissimilarity) {
+      others_ = OtherDetectors(current->config);
+    }
     config_ = std::move(current);
   }
 }

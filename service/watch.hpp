@@ -11,24 +11,31 @@
 #include <span>
 #include <string>
 
+#include "adapters/codecs/particles_payload.hpp"
 #include "adapters/codecs/scan_payload.hpp"
 #include "core/incident.hpp"
 #include "core/status.hpp"
+#include "service/other_detectors.hpp"
 
 namespace kidnapwatch::service {
+
+enum class MessageKind : std::uint8_t { scan, particles };
 
 /// A message from a robot, as it came from the broker.
 struct Message {
   std::shared_ptr<const std::string> payload;  ///< never null
   std::string content_type;                    ///< MQTT 5; empty if the publisher told none
   core::Stamp arrival;
+  MessageKind kind = MessageKind::scan;
 };
 
 /// What a thread needs to take scans, whatever robot they are of. It holds no state of a robot.
 struct Bench {
-  explicit Bench(const adapters::codecs::ScanPayloadConfig& payload) : decoder(payload) {}
+  explicit Bench(const adapters::codecs::ScanPayloadConfig& payload)
+      : decoder(payload), particles(payload.max_payload_bytes) {}
 
   adapters::codecs::ScanDecoder decoder;
+  adapters::codecs::ParticlesDecoder particles;
   core::Scan scan;
   core::DissimilarityWorkspace workspace;
 };
@@ -67,7 +74,7 @@ class Watch {
 
   void resume(const Past& past);
 
-  /// On the robot's lane: one scan, to its end.
+  /// On the robot's lane: one scan, to its end; or particles, for the next one.
   void take(const Message& message, Bench& bench);
   /// On the robot's lane, now and then: tells when the robot fell silent.
   void tick();
@@ -79,7 +86,8 @@ class Watch {
 
  private:
   [[nodiscard]] core::Outcome outcome_of(const Message& message, Bench& bench);
-  void conclude(const core::Verdict& verdict, core::Stamp arrival);
+  void take_particles(const Message& message, Bench& bench);
+  void conclude(core::Verdict& verdict, core::Stamp arrival);
   void change_incident(core::EpisodeChange change, core::Stamp now);
   void refresh_config();
   void refresh_status(core::Stamp now);
@@ -88,6 +96,7 @@ class Watch {
   const Surroundings& around_;
   std::shared_ptr<const core::ConfigVersion> config_;
   core::Session session_;
+  OtherDetectors others_;
   core::Incident incident_;  // the latest; meaningless before the first
   bool incident_open_ = false;
 

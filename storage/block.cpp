@@ -8,10 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include <zstd.h>
 
 #include "storage/bytes.hpp"
+#include "storage/rows.hpp"
 #include "storage/sqlite.hpp"
 
 namespace kidnapwatch::storage {
@@ -24,7 +26,7 @@ using Scores = std::span<const Score>;
 constexpr std::uint8_t kFormat = 1;
 constexpr int kLevel = 3;  // level 19 saves 4 % and takes 20 times as long
 constexpr std::size_t kMaxScores = 1'000'000;
-constexpr std::size_t kMaxBytesPerScore = 64;
+constexpr std::size_t kMaxBytesPerScore = 128;
 constexpr double kMaxDivisor = 1'000'000;  // of a cost, in beams
 constexpr auto kLastState = static_cast<unsigned>(core::RobotState::stale);
 
@@ -167,21 +169,31 @@ void get_thresholds(ByteReader& in, std::span<const std::byte> flags, std::span<
 }
 
 /// Byte by byte: the sign and exponents of all, which hardly differ, compress next to each other.
-void put_costs(ByteWriter& out, Scores scores) {
+template <typename Value>
+void put_planes(ByteWriter& out, Scores scores, const Value& value) {
   for (const unsigned shift : {24U, 16U, 8U}) {
     for (const Score& score : scores) {
-      out.put(static_cast<std::uint8_t>(short_bits(score.dissimilarity.cost) >> shift));
+      out.put(static_cast<std::uint8_t>(short_bits(value(score)) >> shift));
     }
   }
 }
 
-void get_costs(ByteReader& in, std::span<Score> scores) {
+template <typename Set>
+void get_planes(ByteReader& in, std::span<Score> scores, Set set) {
   const std::array planes{in.take(scores.size()), in.take(scores.size()), in.take(scores.size())};
   for (std::size_t i = 0; i < scores.size(); ++i) {
     std::uint32_t bits = 0;
     for (const auto& plane : planes) bits = (bits | std::to_integer<std::uint32_t>(plane[i])) << 8;
-    scores[i].dissimilarity.cost = from_short_bits(bits);
+    set(scores[i], from_short_bits(bits));
   }
+}
+
+void put_costs(ByteWriter& out, Scores scores) {
+  put_planes(out, scores, [](const Score& score) { return score.dissimilarity.cost; });
+}
+
+void get_costs(ByteReader& in, std::span<Score> scores) {
+  get_planes(in, scores, [](Score& score, double cost) { score.dissimilarity.cost = cost; });
 }
 
 /// What the cost was divided by, or 0 followed by the quotient.
@@ -202,6 +214,38 @@ void get_beams(ByteReader& in, std::span<Score> scores) {
     beams += in.get_signed_varint();
     d.cost_per_beam =
         beams == 0 ? from_short_bits(in.get<std::uint32_t>()) : d.cost / static_cast<double>(beams);
+  }
+}
+
+/// What `detector` said of the score's scan.
+std::optional<float> other(const Score& score, core::DetectorId detector) {
+  const auto found = std::ranges::find(score.others, detector, &core::DetectorScore::detector);
+  return found == score.others.end() ? std::nullopt : std::optional(found->score);
+}
+
+/// Whose scores there are; of each of these which scans it had an opinion of, and which.
+void put_others(ByteWriter& out, Scores scores) {
+  std::set<core::DetectorId> detectors;
+  for (const Score& score : scores) {
+    for (const auto& one : score.others) detectors.insert(one.detector);
+  }
+  out.put(static_cast<std::uint8_t>(detectors.size()));
+  for (const auto detector : detectors) {
+    out.put(detector);
+    for (const Score& score : scores) out.put(other(score, detector).has_value());
+    put_planes(out, scores, [&](const Score& one) { return other(one, detector).value_or(0.0F); });
+  }
+}
+
+void get_others(ByteReader& in, std::span<Score> scores) {
+  for (int left = in.get<std::uint8_t>(); left > 0; --left) {
+    const auto detector = known_detector(in.get<std::uint8_t>());
+    const auto present = in.take(scores.size());
+    get_planes(in, scores, [&, i = std::size_t{0}](Score& score, double value) mutable {
+      if (present[i++] != std::byte{}) {
+        score.others.push_back({detector, static_cast<float>(value)});
+      }
+    });
   }
 }
 
@@ -244,6 +288,9 @@ Score as_stored(Score score) {
   const auto beams = divisor(d, 1e-9);
   d.cost = from_short_bits(short_bits(d.cost));
   d.cost_per_beam = beams ? d.cost / *beams : from_short_bits(short_bits(d.cost_per_beam));
+  for (auto& one : score.others) {
+    one.score = static_cast<float>(from_short_bits(short_bits(one.score)));
+  }
   return score;
 }
 
@@ -258,6 +305,7 @@ std::vector<std::byte> packed(Scores scores) {
     put_thresholds(out, scores);
     put_costs(out, scores);
     put_beams(out, scores);
+    put_others(out, scores);
   }
   return compressed(out.bytes());
 }
@@ -281,6 +329,7 @@ std::vector<Score> unpacked(std::span<const std::byte> data) {
   get_thresholds(in, flags, scores);
   get_costs(in, scores);
   get_beams(in, scores);
+  get_others(in, scores);
   return scores;
 }
 

@@ -41,6 +41,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
+  [[nodiscard]] bool at_end() const { return bytes_.empty(); }
   [[nodiscard]] std::span<const std::byte> take(std::size_t size) {
     if (size > bytes_.size()) throw StorageError::damage("a block ends early");
     const auto taken = bytes_.first(size);

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 
+#include "storage/bytes.hpp"
+
 namespace kidnapwatch::storage {
 namespace {
 
@@ -21,7 +23,34 @@ std::optional<core::Pose> pose_from(const Statement& row, int first) {
   return core::Pose{row.real(first), row.real(first + 1), row.real(first + 2)};
 }
 
+/// A byte for the detector, then its score, for each.
+std::vector<std::byte> bytes_of(const std::vector<core::DetectorScore>& others) {
+  ByteWriter out;
+  for (const auto& [detector, score] : others) {
+    out.put(detector);
+    out.put(score);
+  }
+  return {out.bytes().begin(), out.bytes().end()};
+}
+
+std::vector<core::DetectorScore> others_from(std::span<const std::byte> bytes) {
+  std::vector<core::DetectorScore> others;
+  for (ByteReader in(bytes); !in.at_end();) {
+    const auto detector = known_detector(in.get<std::uint8_t>());
+    others.push_back({detector, in.get<float>()});
+  }
+  return others;
+}
+
 }  // namespace
+
+core::DetectorId known_detector(std::uint8_t number) {
+  if (number >= core::kDetectorNames.size()) {
+    throw StorageError::damage("a score of detector " + std::to_string(number) +
+                               ", which is unknown");
+  }
+  return core::DetectorId{number};
+}
 
 core::Score score_from(const Statement& row, int first) {
   core::Score score;
@@ -32,6 +61,7 @@ core::Score score_from(const Statement& row, int first) {
   score.dissimilarity.standardized = row.integer(first + 4) != 0;
   if (!row.is_null(first + 5)) score.threshold = row.real(first + 5);
   score.state = static_cast<core::RobotState>(row.integer(first + 6));
+  score.others = others_from(row.blob(first + 7));
   return score;
 }
 
@@ -39,7 +69,7 @@ void bind_score(Statement& insert, std::int64_t robot, core::Stamp arrival,
                 const core::Score& score) {
   insert.bind(robot, arrival, score.stamp, score.reference, score.dissimilarity.cost,
               score.dissimilarity.cost_per_beam, score.dissimilarity.standardized, score.threshold,
-              static_cast<int>(score.state));
+              static_cast<int>(score.state), bytes_of(score.others));
 }
 
 core::Incident incident_from(const Statement& row) {

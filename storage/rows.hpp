@@ -13,10 +13,13 @@ namespace kidnapwatch::storage {
 
 /// In the order that score_from reads them.
 inline constexpr std::string_view kScoreColumns =
-    "stamp, reference, cost, cost_per_beam, standardized, threshold, state";
+    "stamp, reference, cost, cost_per_beam, standardized, threshold, state, others";
 
 /// The score in columns `first`... of the current row.
 [[nodiscard]] core::Score score_from(const Statement& row, int first);
+
+/// The detector of this number. Throws StorageError where there is none.
+[[nodiscard]] core::DetectorId known_detector(std::uint8_t number);
 
 /// In the order that incident_from reads them.
 inline constexpr std::string_view kIncidentColumns =

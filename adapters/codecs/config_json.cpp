@@ -38,6 +38,7 @@ void each_member(Config& config, Visit& visit) {
   visit("dissimilarity", config.dissimilarity);
   visit("calibration", config.calibration);
   visit("threshold", config.threshold);
+  visit("detectors", config.detectors);
   visit("stale_after_s", config.stale_after_s);
   visit("resolve_after_s", config.resolve_after_s);
   visit("resync_scans", config.resync_scans);
@@ -69,6 +70,7 @@ struct Writer {
   void operator()(const char* key, const std::optional<double>& value) {
     object[key] = value ? Json(*value) : Json(nullptr);
   }
+  void operator()(const char* key, const std::vector<std::string>& texts) { object[key] = texts; }
   void operator()(const char* key, const Enum auto& value) {
     object[key] = names(value).at(static_cast<std::size_t>(value));
   }
@@ -127,6 +129,13 @@ class Reader {
     } else {
       read(json, path, value.emplace());
     }
+  }
+
+  static void read(const Json& json, const std::string& path, std::vector<std::string>& texts) {
+    if (!json.is_array() || !std::ranges::all_of(json, &Json::is_string)) {
+      throw core::BadInput(path, "must be a list of texts");
+    }
+    texts = json.get<std::vector<std::string>>();
   }
 
   static void read(const Json& json, const std::string& path, Enum auto& value) {

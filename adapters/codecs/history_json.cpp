@@ -2,8 +2,11 @@
 // Scores, incidents and scans, member by member.
 #include "adapters/codecs/history_json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <set>
 
 #include "adapters/codecs/rfc3339.hpp"
 #include "adapters/codecs/scan_encode.hpp"
@@ -17,12 +20,43 @@ std::string number(double value) {
   return std::isfinite(value) ? std::string(text.data(), end) : std::string();
 }
 
+/// The double with the fewest digits that is `value` as a float: 0.02, not 0.0199999996.
+double shortest(float value) {
+  std::array<char, 32> text{};
+  const auto* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double result = 0.0;
+  std::from_chars(text.data(), end, result);
+  return result;
+}
+
+Json json(const std::vector<core::DetectorScore>& others) {
+  Json object = Json::object();
+  for (const auto& [detector, score] : others) {
+    set(object, std::string(core::name(detector)).c_str(), shortest(score));
+  }
+  return object;
+}
+
+/// Those that have a score in any of `scores`, by number.
+std::set<core::DetectorId> detectors(std::span<const core::Score> scores) {
+  std::set<core::DetectorId> found;
+  for (const auto& score : scores) {
+    for (const auto& other : score.others) found.insert(other.detector);
+  }
+  return found;
+}
+
+std::string csv_cell(const core::Score& score, core::DetectorId detector) {
+  const auto found = std::ranges::find(score.others, detector, &core::DetectorScore::detector);
+  return "," + (found == score.others.end() ? std::string() : number(shortest(found->score)));
+}
+
 std::string csv_line(const core::Score& score) {
   return rfc3339(score.stamp) + "," + rfc3339(score.reference) + "," +
          number(score.dissimilarity.cost) + "," + number(score.dissimilarity.cost_per_beam) + "," +
          (score.dissimilarity.standardized ? "true" : "false") + "," +
          (score.threshold ? number(*score.threshold) : std::string()) + "," +
-         std::string(core::name(score.state)) + "\r\n";
+         std::string(core::name(score.state));
 }
 
 }  // namespace
@@ -34,6 +68,9 @@ Json json(const core::Score& score) {
   set(object, "standardized", score.dissimilarity.standardized);
   set(object, "threshold", score.threshold);
   set(object, "state", core::name(score.state));
+  if (const Json others = json(score.others); !others.empty()) {
+    object["detectors"] = others;
+  }
   return object;
 }
 
@@ -70,9 +107,14 @@ std::string evidence_json(const core::Evidence& evidence) {
 }
 
 std::string scores_csv(std::span<const core::Score> scores) {
-  std::string csv = "time,referenceTime,score,scorePerBeam,standardized,threshold,state\r\n";
+  const auto others = detectors(scores);
+  std::string csv = "time,referenceTime,score,scorePerBeam,standardized,threshold,state";
+  for (const auto detector : others) csv.append(",").append(core::name(detector));
+  csv += "\r\n";
   for (const auto& score : scores) {
     csv += csv_line(score);
+    for (const auto detector : others) csv += csv_cell(score, detector);
+    csv += "\r\n";
   }
   return csv;
 }

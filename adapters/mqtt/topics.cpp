@@ -43,6 +43,9 @@ void check_filter(std::string_view filter) {
   if (level == "odom") {
     return TopicKind::odom;
   }
+  if (level == "particles") {
+    return TopicKind::particles;
+  }
   if (level == "command") {
     return TopicKind::command;
   }
@@ -80,7 +83,7 @@ std::string Topics::of(std::string_view robot, std::string_view kind) const {
 std::vector<std::string> Topics::filters() const {
   std::vector<std::string> filters{prefix_ + "#"};
   for (const auto& [before, after] : scan_filters_) {
-    filters.push_back(before + "+" + after);
+    filters.emplace_back(before).append("+").append(after);
   }
   return filters;
 }

@@ -12,6 +12,7 @@ namespace kidnapwatch::adapters::mqtt {
 enum class TopicKind : std::uint8_t {
   scan,
   odom,
+  particles,
   command,
   own,           ///< one that the service publishes: alert, state, score, service/status
   bad_robot_id,  ///< of one of the kinds above, but with a robot id that is none
@@ -20,7 +21,7 @@ enum class TopicKind : std::uint8_t {
 
 struct Topic {
   TopicKind kind = TopicKind::unknown;
-  std::string_view robot;  ///< a valid robot id exactly for scan, odom and command
+  std::string_view robot;  ///< a valid robot id exactly for scan, odom, particles and command
 };
 
 struct TopicsConfig {
@@ -37,6 +38,9 @@ class Topics {
 
   [[nodiscard]] std::string scan(std::string_view robot) const { return of(robot, "scan"); }
   [[nodiscard]] std::string odom(std::string_view robot) const { return of(robot, "odom"); }
+  [[nodiscard]] std::string particles(std::string_view robot) const {
+    return of(robot, "particles");
+  }
   [[nodiscard]] std::string alert(std::string_view robot) const { return of(robot, "alert"); }
   [[nodiscard]] std::string state(std::string_view robot) const { return of(robot, "state"); }
   [[nodiscard]] std::string score(std::string_view robot) const { return of(robot, "score"); }

@@ -29,6 +29,15 @@ std::string refused(Change change) {
 
 TEST(CheckDetectionConfig, TakesTheDefaults) { EXPECT_NO_THROW(check(DetectionConfig{})); }
 
+TEST(CheckDetectionConfig, WantsDetectorsThatThereAreOnceEach) {
+  const auto with = [](std::vector<std::string> names) {
+    return refused([&](auto& config) { config.detectors = names; });
+  };
+  EXPECT_EQ(with({"ndt_qe", "qs2ddtw", "me"}), "");
+  EXPECT_EQ(with({"ndt_qx"}), "detectors");
+  EXPECT_EQ(with({"ndt_qe", "ndt_qe"}), "detectors");
+}
+
 TEST(CheckDetectionConfig, WantsAShareAsSignificance) {
   for (const double bad : {0.0, 1.0, -0.05, kNan, kInfinity}) {
     EXPECT_EQ(refused([&](auto& config) { config.dissimilarity.significance = bad; }),

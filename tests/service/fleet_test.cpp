@@ -133,6 +133,18 @@ TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
   EXPECT_EQ(fleet.robot("calm")->counts.at(static_cast<std::size_t>(Outcome::first)), 1U);
 }
 
+TEST_F(FleetTest, ItIsScansThatMakeARobot) {
+  Fleet fleet({.lanes = 1}, outside(), {});
+  Message particles = test::message("[1]", fixed_now());
+  particles.kind = MessageKind::particles;
+  fleet.receive("r1", particles);
+  EXPECT_FALSE(fleet.robot("r1"));
+  fleet.receive("r1", test::message(round_room(2.0, 1.0), fixed_now()));
+  fleet.receive("r1", particles);
+  fleet.stop();
+  EXPECT_EQ(counted(fleet, Outcome::first), 1U);
+}
+
 TEST_F(FleetTest, RefusesStrangeNamesAndTooManyRobots) {
   Fleet fleet({.lanes = 1, .max_robots = 2}, outside(), {});
   for (const char* robot : {"a", "b", "c", "", "sp ace", "a/b"}) {

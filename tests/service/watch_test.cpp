@@ -144,5 +144,30 @@ TEST_F(WatchTest, ResumesAnOpenIncident) {
   EXPECT_EQ(heard_.alerts()[0].incident.seq, 5U);
 }
 
+TEST_F(WatchTest, RecordsTheDetectorsThatAreAskedForAndTheRobotsParticles) {
+  auto changed = test::with_threshold(60.0);
+  changed.version = 7;
+  changed.config.detectors = {"ndt_qo", "mcw"};
+  config_ = std::make_shared<const core::ConfigVersion>(changed);
+  const auto tell = [&](const char* particles) {
+    Message message = test::message(particles, now_);
+    message.kind = MessageKind::particles;
+    watch_.take(message, bench_);
+  };
+  drive(2.0, 1);
+  tell("[0.5,0.25]");
+  drive(2.0, 1);
+  tell("garbage");
+  drive(2.0, 1);
+  const auto scores = heard_.scores();
+  ASSERT_EQ(scores.size(), 2U);
+  ASSERT_EQ(scores[0].others.size(), 2U);
+  EXPECT_EQ(core::name(scores[0].others[0].detector), "ndt_qo");
+  EXPECT_EQ(core::name(scores[0].others[1].detector), "mcw");
+  EXPECT_EQ(scores[0].others[1].score, 0.5F);
+  EXPECT_EQ(scores[1].others.size(), 1U);      // no particles since
+  EXPECT_EQ(counted(Outcome::malformed), 0U);  // it counts scans
+}
+
 }  // namespace
 }  // namespace kidnapwatch::service

@@ -46,6 +46,16 @@ std::vector<Score> drive(std::mt19937& random, std::size_t size = 300) {
   return scores;
 }
 
+/// Of each detector, perhaps.
+std::vector<core::DetectorScore> some_others(std::mt19937_64& random) {
+  std::vector<core::DetectorScore> others;
+  for (const auto name : core::kDetectorNames) {
+    if (random() % 4 != 0) continue;
+    others.push_back({core::detector_id(name, ""), static_cast<float>(random() % 1000) * 0.37F});
+  }
+  return others;
+}
+
 /// Any score at all, with little in common with those before it.
 Score anything(std::mt19937_64& random) {
   const auto coin = [&] { return random() % 2 == 0; };
@@ -58,7 +68,8 @@ Score anything(std::mt19937_64& random) {
        .reference = core::stamp_from_ns(static_cast<std::int64_t>(random())),
        .dissimilarity = {.cost = real(), .cost_per_beam = real(), .standardized = coin()},
        .threshold = coin() ? std::optional(real()) : std::nullopt,
-       .state = static_cast<RobotState>(random() % 6)});
+       .state = static_cast<RobotState>(random() % 6),
+       .others = some_others(random)});
 }
 
 TEST(Block, ADriveComesBack) {

@@ -160,6 +160,21 @@ TEST_F(SegmentsTest, AReaderBetweenTheCommitAndMemoryFindsEachScoreOnce) {
   EXPECT_EQ(history(database_, *segments_->recent(), "robot-0", 100)->natural_scores.size(), 10U);
 }
 
+TEST_F(SegmentsTest, WhatOtherDetectorsSaidIsReadBackFromTheHotTable) {
+  auto rows = next_rows(1);
+  rows[0].score.others = {{core::detector_id("1ddtw", ""), 1.5F}, {core::detector_id("me", ""), 3}};
+  commit(rows);
+  const auto found = hot_scores(database_)->of("robot-0");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].arrived.score, rows[0].score);
+}
+
+TEST_F(SegmentsTest, ADetectorThatNobodyKnowsIsDamage) {
+  commit(next_rows(1));
+  database_.execute("UPDATE score_even SET others = x'FF00000000'");
+  EXPECT_THROW((void)hot_scores(database_), StorageError);
+}
+
 TEST_F(SegmentsTest, AHistoryGoesBackThroughBlocks) {
   for (int i = 0; i < 45; ++i) {
     auto rows = next_rows(1);

@@ -13,7 +13,8 @@ constexpr const char* kDefaults =
     R"({"dissimilarity":{"dimension":"points","gate":"paper","variance_test":"bartlett",)"
     R"("significance":0.05,"invalid":"drop","precision":"f32"},)"
     R"("calibration":{"false_alarm_rate":0.001,"warmup_pairs":100,"window_pairs":1000},)"
-    R"("threshold":null,"stale_after_s":5.0,"resolve_after_s":30.0,"resync_scans":20})";
+    R"("threshold":null,"detectors":[],"stale_after_s":5.0,"resolve_after_s":30.0,)"
+    R"("resync_scans":20})";
 
 core::DetectionConfig read(const char* text) { return detection_config(parsed(text, "body")); }
 
@@ -37,6 +38,7 @@ TEST(ConfigJson, ReadsWhatItWrote) {
                           core::VarianceTest::brown_forsythe, 0.01, core::InvalidPolicy::clamp};
   config.calibration = {0.002, 50, 500};
   config.threshold = 12.5;
+  config.detectors = {"ndt_qe", "me"};
   config.stale_after_s = 2.0;
   config.resolve_after_s = 60.0;
   config.resync_scans = 5;
@@ -80,6 +82,8 @@ TEST(ConfigJson, NamesTheMemberOfTheWrongType) {
   EXPECT_EQ(complaint(R"({"calibration":{"warmup_pairs":40.0}})"), "calibration.warmup_pairs");
   EXPECT_EQ(complaint(R"({"calibration":{"warmup_pairs":1e300}})"), "calibration.warmup_pairs");
   EXPECT_EQ(complaint(R"({"threshold":true})"), "threshold");
+  EXPECT_EQ(complaint(R"({"detectors":"ndt_qe"})"), "detectors");
+  EXPECT_EQ(complaint(R"({"detectors":[7]})"), "detectors");
   EXPECT_EQ(complaint(R"({"stale_after_s":null})"), "stale_after_s");
 }
 

@@ -32,6 +32,19 @@ TEST(HistoryJson, LeavesOutAThresholdThatIsNotThereYet) {
   EXPECT_FALSE(json(warming_up).contains("threshold"));
 }
 
+TEST(HistoryJson, SpellsWhatOtherDetectorsSaidOfAScan) {
+  auto with_others = score();
+  with_others.others = {{core::detector_id("ndt_qs", ""), 0.1F},
+                        {core::detector_id("me", ""), std::numeric_limits<float>::infinity()}};
+  EXPECT_EQ(text(json(with_others)["detectors"]), R"({"ndt_qs":0.1})");
+  const std::vector scores{score(), with_others};
+  const std::string csv = scores_csv(scores);
+  EXPECT_EQ(csv.substr(0, csv.find("\r\n")),
+            "time,referenceTime,score,scorePerBeam,standardized,threshold,state,ndt_qs,me");
+  EXPECT_NE(csv.find("180,normal,,\r\n"), std::string::npos);
+  EXPECT_NE(csv.find("180,normal,0.1,\r\n"), std::string::npos);
+}
+
 TEST(HistoryJson, SpellsAnIncident) {
   const core::Incident incident{.id = "0190",
                                 .robot = "r1",

@@ -23,6 +23,7 @@ void expect_parsed(std::string_view topic, TopicKind kind, std::string_view robo
 TEST(Topics, AreNamedAsDocumented) {
   EXPECT_EQ(kTopics.scan("r1"), "kidnapwatch/v1/r1/scan");
   EXPECT_EQ(kTopics.odom("r1"), "kidnapwatch/v1/r1/odom");
+  EXPECT_EQ(kTopics.particles("r1"), "kidnapwatch/v1/r1/particles");
   EXPECT_EQ(kTopics.alert("r1"), "kidnapwatch/v1/r1/alert");
   EXPECT_EQ(kTopics.state("r1"), "kidnapwatch/v1/r1/state");
   EXPECT_EQ(kTopics.score("r1"), "kidnapwatch/v1/r1/score");
@@ -38,6 +39,7 @@ TEST(Topics, AreSubscribedToWhole) {
 TEST(Topics, TellKindAndRobot) {
   expect_parsed("kidnapwatch/v1/r1/scan", TopicKind::scan, "r1");
   expect_parsed("kidnapwatch/v1/r:1.a-B_/odom", TopicKind::odom, "r:1.a-B_");
+  expect_parsed("kidnapwatch/v1/r1/particles", TopicKind::particles, "r1");
   expect_parsed("kidnapwatch/v1/service/command", TopicKind::command, "service");
 }
 
