@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scan against motion, scan after scan.
+#include "core/motion_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kidnapwatch::core {
+namespace {
+
+constexpr float kPriorExcesses = 10.0F;  // of a fleet's robots, to start a robot's tail with
+constexpr float kPriorMean = 1.0F;
+constexpr float kLearnable = 1.5F;     // times the fleet's threshold: higher is not natural driving
+constexpr float kScreen = 0.9F;        // pairs below this quantile of the scores need no confirming
+constexpr float kGapAllowance = 1.5F;  // per e-fold of missed scans
+constexpr double kGapMax = 10.0;
+constexpr double kPeriodStep = 1.05;
+constexpr double kCoast = 0.8;  // of the speed is kept, per scan that does not tell it
+constexpr double kUsualRate = 0.05;
+constexpr float kUnrestRate = 0.1F;
+constexpr int kLearnTroubledEvery = 10;
+constexpr float kUnrestMax = 0.35F;
+constexpr float kBlindViolation = 0.35F;
+constexpr float kFit = 0.5F;  // quality of an alignment that says: these are the same walls
+
+Pose scaled(const Pose& motion, double factor) {
+  return {motion.x_m * factor, motion.y_m * factor, wrapped(motion.theta_rad * factor)};
+}
+
+/// One length for a motion, at a metre of lever: to tell who moved more.
+double amount(const Pose& motion) {
+  return std::hypot(motion.x_m, motion.y_m) + std::abs(motion.theta_rad);
+}
+
+Wheels joined(const Wheels& first, const Wheels& second) {
+  return {first.motion * second.motion, first.scans + second.scans, first.before,
+          first.before_scans, first.by_odometry && second.by_odometry};
+}
+
+/// Whether the latest scan fits the one before the last, but not the last, which was a glitch.
+bool glitched(const Clues& around, const Clues& latest, float limit) {
+  return latest.sum() > 0.5F * limit && around.sum() < 0.6F * latest.sum();
+}
+
+Cause cause_of(const Comparison& pair, const Clues& clues) {
+  if (clues.misfit >= 1.0F || pair.at_seen.quality() < kFit) return Cause::teleport;
+  return amount(pair.seen) < 0.5 * amount(pair.claim.told) ? Cause::slip : Cause::displaced;
+}
+
+}  // namespace
+
+MotionVerdict MotionDetector::observe(const Scan& scan, bool learning) {
+  MotionVerdict verdict;
+  const Wheels wheels = told(scan);
+  newest_ = (newest_ + 1) % 3;
+  trace(scan, views_[newest_]);
+  const bool first = seen_ == 0;
+  seen_ = std::min<std::size_t>(seen_ + 1, 3);
+  keep_time(scan);
+  verdict.threshold = threshold();
+  if (first) return verdict;
+  const float limit = verdict.threshold.value_or(static_cast<float>(config_.threshold_min));
+  Pair latest = paired(view(1), view(0), wheels);
+  if (pending_) {
+    const std::optional<Pair> around =
+        suspicious(*pending_, limit) ? bridged(latest) : std::nullopt;
+    verdict.jump = confirm(latest, around);
+    verdict.jump->alarm = verdict.threshold && verdict.jump->score > limit;
+    if (learning && !verdict.jump->alarm && may_learn()) learn(*pending_, *verdict.jump);
+    skipped_ = !skipped_ && around && around->comparison.judged &&
+               glitched(around->clues, latest.clues, limit);
+    if (skipped_) {  // the scan in between was a glitch: go on from the one before it
+      latest = *around;
+      std::swap(views_[(newest_ + 1) % 3], views_[(newest_ + 2) % 3]);
+    }
+  }
+  verdict.judged = latest.comparison.judged;
+  verdict.suspicion = latest.suspicion;
+  if (verdict.jump && verdict.jump->alarm) carry_.reset();
+  const bool quiet = !carry_.alarmed();
+  if (latest.comparison.judged && latest.comparison.at_seen.quality() > kFit)
+    carry_.observe(latest.comparison.claim.expected, latest.comparison.seen, learning);
+  verdict.carry = carry_.cusum();
+  verdict.carried = quiet && carry_.alarmed();
+  verdict.trouble = trouble(latest, limit);
+  follow(latest, limit);
+  earlier_ = pending_ && !(verdict.jump && verdict.jump->alarm) ? pending_->clues : Clues{};
+  pending_ = latest;
+  return verdict;
+}
+
+void MotionDetector::forget_scans() {
+  seen_ = 0;
+  pending_.reset();
+  earlier_ = {};
+  odometry_.reset();
+  velocity_ = {};
+  last_ = {};
+  carry_.reset();
+}
+
+std::optional<float> MotionDetector::threshold() const {
+  if (static_cast<double>(habits_.pairs()) < config_.warmup_pairs) return std::nullopt;
+  const float own = predicted_threshold(scores_, static_cast<float>(config_.false_alarm_rate),
+                                        kPriorExcesses, kPriorMean);
+  return std::max(own, static_cast<float>(config_.threshold_min));
+}
+
+Wheels MotionDetector::told(const Scan& scan) const {
+  const double elapsed = seen_ > 0 ? elapsed_s(stamp_, scan.stamp) : period_s_;
+  const double scans = period_s_ > 0.0 ? std::max(1.0, std::round(elapsed / period_s_)) : 1.0;
+  Wheels wheels{scaled(velocity_, scans), scans, last_.motion, last_.scans, false};
+  if (scan.odometry && odometry_) {
+    wheels.by_odometry = true;
+    const Pose base = inverse(*odometry_) * *scan.odometry;
+    wheels.motion = inverse(config_.sensor) * base * config_.sensor;
+  }
+  return wheels;
+}
+
+void MotionDetector::keep_time(const Scan& scan) {
+  if (seen_ > 1) {
+    const double elapsed = elapsed_s(stamp_, scan.stamp);
+    if (period_s_ <= 0.0) period_s_ = elapsed;
+    period_s_ *= elapsed > period_s_ ? kPeriodStep : 1.0 / kPeriodStep;
+  }
+  stamp_ = scan.stamp;
+  odometry_ = scan.odometry;
+}
+
+Claim MotionDetector::claim(const Wheels& wheels) const {
+  return {wheels.motion, model_.expected(wheels), wheels.by_odometry, scaled(usual_, wheels.scans)};
+}
+
+MotionDetector::Pair MotionDetector::paired(const Contour& before, const Contour& now,
+                                            const Wheels& wheels) const {
+  Pair pair;
+  pair.wheels = wheels;
+  pair.comparison = compare(before, now, claim(wheels));
+  if (!pair.comparison.judged) return pair;
+  pair.clues = habits_.clues(pair.comparison.features);
+  pair.allowance = habits_.allowance(pair.comparison.features);
+  pair.allowance += kGapAllowance * static_cast<float>(std::log(std::min(wheels.scans, kGapMax)));
+  const bool lost = !pair.comparison.claim.by_wheels && wheels.scans >= 2.5;
+  if (lost) pair.clues.elsewhere = pair.clues.shift = pair.clues.turn = 0.0F;
+  pair.suspicion = pair.clues.sum(pair.allowance);
+  return pair;
+}
+
+bool MotionDetector::suspicious(const Pair& pair, float limit) const {
+  const bool warm = scores_.count() >= static_cast<float>(config_.warmup_pairs);
+  return !warm || !pair.comparison.judged || pair.clues.sum() > 0.5F * limit ||
+         pair.suspicion > scores_.quantile(kScreen);
+}
+
+/// The pair of the latest scan and the one before the pending pair's second.
+std::optional<MotionDetector::Pair> MotionDetector::bridged(const Pair& latest) const {
+  return paired(view(2), view(0), joined(pending_->wheels, latest.wheels));
+}
+
+/// What the latest scan makes of the pair before it.
+MotionJump MotionDetector::confirm(const Pair& latest, const std::optional<Pair>& around) const {
+  const Pair& suspect = *pending_;
+  MotionJump jump{suspect.clues, suspect.allowance, suspect.suspicion, false, Cause::teleport};
+  if (!around) return jump;
+  const bool by_wheels = latest.comparison.claim.by_wheels;
+  const Clues after =
+      habits_.clues(by_wheels ? latest.comparison.features : latest.comparison.lenient);
+  jump.clues = confirmed(suspect.clues, around->clues, after, earlier_);
+  jump.score = jump.clues.sum(jump.allowance);
+  jump.cause = cause_of(around->comparison, jump.clues);
+  return jump;
+}
+
+/// What is in trouble is learned slowly: a robot that changed for good is believed in the end.
+bool MotionDetector::may_learn() {
+  if (!threshold() || unrest_ < kUnrestMax) return true;
+  troubled_pairs_ = (troubled_pairs_ + 1) % kLearnTroubledEvery;
+  return troubled_pairs_ == 0;
+}
+
+void MotionDetector::learn(const Pair& pair, const MotionJump& jump) {
+  if (!pair.comparison.judged) return;
+  const bool scaled_well = static_cast<double>(habits_.pairs()) >= 0.5 * config_.warmup_pairs;
+  const bool plausible = jump.score < kLearnable * static_cast<float>(config_.threshold_min);
+  if (scaled_well && plausible) scores_.learn(jump.score);
+  habits_.learn(pair.comparison.features);
+  const Agreement& fit = pair.comparison.at_seen;
+  if (fit.consistent > 0.5F && fit.violating < 0.2F && pair.comparison.matches > 30)
+    model_.learn(pair.wheels, pair.comparison.seen);
+}
+
+/// Keeps what the next claim starts from.
+void MotionDetector::follow(const Pair& pair, float limit) {
+  last_ = pair.wheels;
+  if (pair.comparison.claim.by_wheels) return;
+  if (pair.suspicion >= limit || pair.comparison.at_seen.quality() < kFit) {  // perhaps a jump
+    velocity_ = scaled(velocity_, kCoast);
+    return;
+  }
+  velocity_ = scaled(pair.comparison.seen, 1.0 / pair.wheels.scans);
+  usual_.x_m += kUsualRate * (velocity_.x_m - usual_.x_m);
+  usual_.y_m += kUsualRate * (velocity_.y_m - usual_.y_m);
+}
+
+std::optional<Trouble> MotionDetector::trouble(const Pair& latest, float threshold) {
+  const bool suspicious = !latest.comparison.judged || latest.suspicion >= threshold;
+  unrest_ += kUnrestRate * ((suspicious ? 1.0F : 0.0F) - unrest_);
+  if (!latest.comparison.judged || habits_.usual_violation() > kBlindViolation)
+    return Trouble::blind;
+  if (unrest_ < kUnrestMax) return std::nullopt;
+  const Clues& clues = latest.clues;
+  if (clues.misfit < clues.shift + clues.turn) return Trouble::odometry;
+  const Agreement& fit = latest.comparison.at_seen;
+  return fit.violating_elsewhere < 0.5F * fit.violating ? Trouble::crowd : Trouble::noise;
+}
+
+}  // namespace kidnapwatch::core
