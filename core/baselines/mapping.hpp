@@ -39,4 +39,8 @@ struct RefinementConfig {
 [[nodiscard]] std::vector<Pose> refine_poses(std::span<const RecordedScan> scans,
                                              const RefinementConfig& config = {});
 
+/// T_map_base of each scan: the true poses if all scans have one, else refine_poses().
+[[nodiscard]] std::vector<Pose> poses_of(std::span<const RecordedScan> scans,
+                                         const RefinementConfig& config = {});
+
 }  // namespace kidnapwatch::core::baselines

@@ -241,4 +241,13 @@ std::vector<Pose> refine_poses(std::span<const RecordedScan> scans,
   return poses;
 }
 
+std::vector<Pose> poses_of(std::span<const RecordedScan> scans, const RefinementConfig& config) {
+  std::vector<Pose> poses;
+  for (const RecordedScan& recorded : scans) {
+    if (!recorded.true_pose) return refine_poses(scans, config);
+    poses.push_back(*recorded.true_pose);
+  }
+  return poses;
+}
+
 }  // namespace kidnapwatch::core::baselines

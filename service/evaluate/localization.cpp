@@ -48,20 +48,12 @@ core::Pose pose_of(const std::string& text, const char* option) {
   return pose;
 }
 
-/// At true poses if the run has them all, else at odometry that scan matching straightened.
+/// At the run's true poses, or at odometry that scan matching straightened.
 baselines::GridMap map_from(const std::string& file, const core::Pose& T_base_lidar) {
   const auto run = logs::read_log(file).recording;
   baselines::RefinementConfig config;
   config.mapping.T_base_lidar = T_base_lidar;
-  std::vector<core::Pose> poses;
-  for (const auto& recorded : run.scans) {
-    if (recorded.true_pose) poses.push_back(*recorded.true_pose);
-  }
-  if (poses.size() < run.scans.size()) {
-    std::cerr << "the map's run has no true poses; refining its odometry\n";
-    poses = baselines::refine_poses(run.scans, config);
-  }
-  return baselines::map_from(run.scans, poses, config.mapping);
+  return baselines::map_from(run.scans, baselines::poses_of(run.scans, config), config.mapping);
 }
 
 std::optional<core::Pose> start_of(const LocalizationOptions& options, const core::Recording& run) {

@@ -151,7 +151,7 @@ void add_roc_figures(const RocStudy& roc, const PaperOptions& options,
   std::vector<const NamedRoc*> both{&*roc.regression};
   for (const auto& one : roc.single) {
     if (one.id == options.reading.id(Dimension::points, options.reading.dissimilarity.gate) ||
-        one.id.starts_with("ndt_q")) {
+        one.id.starts_with("ndt_q") || one.id == "mcw" || one.id == "me") {
       both.push_back(&one);
     }
   }

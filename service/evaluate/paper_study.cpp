@@ -104,7 +104,10 @@ std::vector<study::RecordedScores> score_runs(const PaperOptions& options) {
     scores[i] = study::recorded_scores(
         recorded ? adapters::logs::read_log(logs[i]).recording : simulated_run(options, i),
         [&] { return mapless(options.reading); },
-        {.kidnappings = options.kidnappings, .seed = options.seed});
+        {.kidnappings = options.kidnappings,
+         .seed = options.seed,
+         .particles = options.particles,
+         .me_polarity = options.reading.me_polarity});
   });
   const double least = kLeastShare * static_cast<double>(options.kidnappings);
   std::erase_if(scores, [&](const study::RecordedScores& run) {

@@ -32,6 +32,31 @@ TEST(RecordedScores, HaveARowPerNaturalPairAndPerKidnapping) {
   for (const auto& row : scores.kidnapped) EXPECT_EQ(row.size(), 4U);
 }
 
+TEST(RecordedScores, EndWithThoseOfAFilterInTheRunsOwnMap) {
+  const Recording recording = toured(100);
+  RecordedScores scores = recorded_scores(recording, ndt, {.kidnappings = 20, .particles = 300});
+  ASSERT_EQ(scores.ids,
+            (std::vector<std::string>{"ndt_qe", "ndt_qs", "ndt_qh", "ndt_qo", "mcw", "me"}));
+  EXPECT_EQ(scores.polarities.back(), Polarity::lptf);
+  std::vector<double> natural;
+  std::vector<double> kidnapped;
+  for (const auto& row : scores.natural) natural.push_back(-row[4]);
+  for (const auto& row : scores.kidnapped) kidnapped.push_back(-row[4]);
+  EXPECT_GT(evaluation::roc(natural, kidnapped).auc, 0.9);  // mcw, which falls
+  const RecordedScores again =
+      recorded_scores(recording, ndt, {.kidnappings = 20, .particles = 300});
+  EXPECT_EQ(scores.kidnapped, again.kidnapped);
+}
+
+TEST(RecordedScores, OfAFilterNeedNoOdometry) {
+  Recording recording = toured(60);
+  for (auto& recorded : recording.scans) recorded.scan.odometry.reset();
+  const RecordedScores scores =
+      recorded_scores(recording, ndt, {.kidnappings = 10, .particles = 300});
+  EXPECT_EQ(scores.natural.size(), 59U);
+  EXPECT_EQ(scores.kidnapped.size(), 10U);
+}
+
 TEST(RecordedScores, AreTheSameForTheSameSeed) {
   const Recording recording = toured(60);
   const RecordedConfig config{.kidnappings = 5};

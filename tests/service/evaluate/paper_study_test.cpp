@@ -91,7 +91,7 @@ TEST_F(PaperTest, StudiesSimulatedRunsWhereNoneAreRecorded) {
   EXPECT_TRUE(results.conditions.empty());
   ASSERT_TRUE(results.roc);
   EXPECT_EQ(results.roc->runs, 10U);
-  EXPECT_EQ(results.roc->single.size(), 10U);
+  EXPECT_EQ(results.roc->single.size(), 12U);
   EXPECT_EQ(results.roc->single[0].roc.kidnapped, 80U);
   EXPECT_EQ(results.roc->single[0].roc.natural, 290U);
   EXPECT_GT(results.roc->regression->roc.auc, 0.5);
