@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// HTTP/1.1 over TCP: connections in, requests to a function, responses out.
+// HTTP/1.1 over TCP or TLS: connections in, requests to a function, responses out.
 #pragma once
 
 #include <chrono>
@@ -17,6 +17,8 @@ namespace kidnapwatch::api {
 struct ServerConfig {
   std::string address = "127.0.0.1";  ///< IPv4 or IPv6, numeric
   std::uint16_t port = 8080;          ///< 0: any free one
+  std::string cert_file;              ///< PEM, the chain from the server's own up; empty: no TLS
+  std::string key_file;               ///< PEM, of that certificate
   std::size_t threads = 1;            ///< that answer requests
   std::size_t max_connections = 256;  ///< beyond: 503
   std::uint32_t max_header_bytes = 8'192;
@@ -35,7 +37,8 @@ class Server {
   /// a 500.
   using Answer = std::function<Response(const Request&)>;
 
-  /// Throws std::runtime_error naming the address if it cannot listen there.
+  /// Throws std::runtime_error naming the address if it cannot listen there, or the file that is no
+  /// certificate or no key of it.
   Server(const ServerConfig& config, Answer answer);
 
   /// Takes no more connections, finishes the responses that are being made, waits for clients to

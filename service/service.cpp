@@ -197,6 +197,8 @@ Service::Parts::Parts(const Settings& settings)
   server_ = std::make_unique<api::Server>(
       api::ServerConfig{.address = settings.http_host,
                         .port = settings.http_port,
+                        .cert_file = settings.http_cert_file,
+                        .key_file = settings.http_key_file,
                         .max_connections = settings.http_max_connections},
       [this](const api::Request& request) {
         return api::answer(ports_, request, [](const std::string& fault) {

@@ -148,6 +148,8 @@ std::vector<Setting> table() {
       setting("mqtt.publish_scores", &S::mqtt_publish_scores, "publish every score, too"),
       setting("http.host", &S::http_host, "address to listen on"),
       setting("http.port", &S::http_port, "port to listen on; 0 takes a free one"),
+      setting("http.cert_file", &S::http_cert_file, "certificate chain, PEM: REST over TLS"),
+      setting("http.key_file", &S::http_key_file, "the key of that certificate"),
       bounded("http.max_connections", &S::http_max_connections, 1, 10'000, "at once"),
       auth(),
       setting("http.tokens_file", &S::http_tokens_file, "who may use REST: kidnapwatch token"),

@@ -30,6 +30,8 @@ struct Settings {
 
   std::string http_host = "127.0.0.1";
   std::uint16_t http_port = 8080;
+  std::string http_cert_file;  ///< PEM; with a key: REST over TLS
+  std::string http_key_file;
   std::size_t http_max_connections = 256;
   std::string http_auth = "auto";  ///< tokens, off; auto: tokens unless REST is on loopback alone
   std::string http_tokens_file = "/var/lib/kidnapwatch/tokens.json";

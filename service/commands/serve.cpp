@@ -49,8 +49,9 @@ int serve(const Settings& settings) {
   const sigset_t signals = stop_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // in all threads, which are started after this
   Service service(settings);
-  spdlog::info("kidnapwatch {} serves http://{}:{}, robots on {} under {}", KW_VERSION,
-               settings.http_host, service.http_port(), settings.mqtt_url, settings.mqtt_prefix);
+  spdlog::info("kidnapwatch {} serves {}://{}:{}, robots on {} under {}", KW_VERSION,
+               settings.http_cert_file.empty() ? "http" : "https", settings.http_host,
+               service.http_port(), settings.mqtt_url, settings.mqtt_prefix);
   sd_notify(0, "READY=1");
   const int signal = wait_for(signals);
   sd_notify(0, "STOPPING=1");
