@@ -23,12 +23,19 @@ struct Gathered {
   Stamp from;
   Stamp to;
   std::vector<Score> scores;
+  bool is_ordered = true;
 
-  void add(const Score& score) {
-    if (score.stamp >= from && score.stamp < to) scores.push_back(score);
+  /// The stamps of `block` ascend.
+  void add(std::span<const Score> block) {
+    const auto begin = std::ranges::lower_bound(block, from, {}, &Score::stamp);
+    const auto end = std::ranges::lower_bound(block, to, {}, &Score::stamp);
+    if (begin >= end) return;
+    is_ordered = is_ordered && (scores.empty() || !is_earlier(*begin, scores.back()));
+    scores.insert(scores.end(), begin, end);
   }
   void order() {
-    if (!std::ranges::is_sorted(scores, is_earlier)) std::ranges::stable_sort(scores, is_earlier);
+    if (!is_ordered) std::ranges::stable_sort(scores, is_earlier);
+    is_ordered = true;
   }
   /// Whether none that begins at `stamp` belongs to the first `limit`.
   [[nodiscard]] bool is_complete(std::size_t limit, Stamp stamp) {
@@ -42,13 +49,24 @@ Stamp before_by_a_block(Stamp stamp) {
   return stamp < Stamp::min() + kMaxBlockSpan ? Stamp::min() : stamp - kMaxBlockSpan;
 }
 
+constexpr std::string_view kBlocksBetween =
+    "FROM block WHERE robot = (SELECT id FROM robot WHERE name = ?1) AND first_stamp >= ?2 "
+    "AND first_stamp < ?3 AND last_stamp >= ?4 ";
+
 Statement blocks_between(Database& database, const std::string& robot, Stamp from, Stamp to) {
-  Statement query(database,
-                  "SELECT first_stamp, segment, data FROM block "
-                  "WHERE robot = (SELECT id FROM robot WHERE name = ?1) AND first_stamp >= ?2 "
-                  "AND first_stamp < ?3 AND last_stamp >= ?4 ORDER BY first_stamp");
+  Statement query(database, "SELECT first_stamp, segment, data " + std::string(kBlocksBetween) +
+                                "ORDER BY first_stamp");
   query.bind(robot, before_by_a_block(from), to, from);
   return query;
+}
+
+/// How many there are, but not more than `limit`; a look at the index.
+std::size_t count_blocks(Database& database, const std::string& robot, Stamp from, Stamp to,
+                         std::size_t limit) {
+  Statement query(database,
+                  "SELECT count(*) FROM (SELECT 1 " + std::string(kBlocksBetween) + "LIMIT ?5)");
+  query.bind(robot, before_by_a_block(from), to, from, limit).step();
+  return static_cast<std::size_t>(query.integer(0));
 }
 
 Statement latest_blocks(Database& database, const std::string& robot) {
@@ -105,13 +123,18 @@ std::vector<Score> scores(Database& database, const RecentScores& recent, const 
                           Stamp from, Stamp to, std::size_t limit) {
   const auto in_memory = recent.of(robot);  // first: what is packed meanwhile is then found twice
   const auto known = segments(in_memory);
-  Gathered gathered{from, to, {}};
+  Gathered gathered{.from = from, .to = to, .scores = {}};
   auto query = blocks_between(database, robot, from, to);
   while (query.step() && !gathered.is_complete(limit, query.stamp(0))) {
     if (known.contains(query.integer(1))) continue;
-    for (const Score& score : unpacked(query.blob(2))) gathered.add(score);
+    const auto block = unpacked(query.blob(2));
+    if (gathered.scores.empty() && !block.empty()) {  // growing costs more than reading
+      const auto blocks = count_blocks(database, robot, from, to, limit / block.size() + 2);
+      gathered.scores.reserve(block.size() * blocks);
+    }
+    gathered.add(block);
   }
-  for (const auto& found : in_memory) gathered.add(found.arrived.score);
+  for (const auto& found : in_memory) gathered.add({&found.arrived.score, 1});
   gathered.order();
   if (gathered.scores.size() > limit) gathered.scores.resize(limit);
   return std::move(gathered.scores);
