@@ -49,7 +49,7 @@ void Health::look_at_load(const Signs& signs) {
   overload_ = {"overload",
                "more came than could be judged or stored: " + std::to_string(signs.dropped) +
                    " scans dropped, " + std::to_string(signs.lost_writes) +
-                   " scores not stored since the start"};
+                   " records not stored since the start"};
   overload_until_ = signs.time + kRememberOverload;
 }
 

@@ -20,7 +20,7 @@ struct Signs {
   std::string store_problem;      ///< empty: it takes writes
   std::string quarantined;        ///< where a damaged store was put at the start; empty: none
   std::uint64_t dropped = 0;      ///< scans, since the start: the robots sent more than was judged
-  std::uint64_t lost_writes = 0;  ///< scores, since the start
+  std::uint64_t lost_writes = 0;  ///< scores and changes, since the start
 };
 
 /// Remembers for a while what happens in a moment: a jump of the clock, an overload. One thread.

@@ -91,6 +91,12 @@ void answer(Awaited& awaited, const std::exception_ptr& failure) {
   error ? awaited.done.set_exception(error) : awaited.done.set_value();
 }
 
+/// Those that are tried again after a failure.
+std::size_t kept_commands(const Batch& batch) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      batch.commands, [](const auto& each) { return !std::holds_alternative<Awaited>(each); }));
+}
+
 /// Tells all who wait, and forgets them.
 void answer_all(Batch& batch, const std::exception_ptr& failure) {
   std::erase_if(batch.commands, [&](Command& command) {
@@ -140,19 +146,16 @@ class Writer::Thread {
     return true;
   }
 
-  void add(IncidentChange change) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (queue_.commands.size() + writing_commands_ >= kMaxWaitingEvidence) {
-        change.evidence.reset();
-      }
-    }
-    add(Command(std::move(change)));
-  }
-
   void add(Command command) {
     {
       const std::lock_guard lock(mutex_);
+      const std::size_t waiting = queue_.commands.size() + writing_commands_;
+      if (waiting >= config_.max_changes && !std::holds_alternative<Awaited>(command)) {
+        refuse(command);
+        return;
+      }
+      auto* change = std::get_if<IncidentChange>(&command);
+      if (change != nullptr && waiting >= kMaxWaitingEvidence) change->evidence.reset();
       queue_.commands.push_back(std::move(command));
     }
     changed_.notify_all();
@@ -184,6 +187,27 @@ class Writer::Thread {
     ++*losing_->scores;
   }
 
+  void refuse(const Command& command) {
+    const auto* change = std::get_if<IncidentChange>(&command);
+    const auto* entry = std::get_if<AuditEntry>(&command);
+    if (change == nullptr && entry == nullptr) return;  // it will be delivered again
+    ++lost_;
+    ++refused_;
+    refused_at_ = change != nullptr ? change->changed_at : entry->at;
+  }
+
+  /// What was lost since the last batch, for the record.
+  void confess(Batch& batch) {
+    if (losing_) batch.commands.emplace_back(*std::exchange(losing_, std::nullopt));
+    if (refused_ == 0) return;
+    batch.commands.emplace_back(AuditEntry{
+        .at = refused_at_,
+        .actor = "kidnapwatch",
+        .action = "store.refused",
+        .subject = "incidents",
+        .detail = std::to_string(std::exchange(refused_, 0)) + " records, the last one then"});
+  }
+
   /// So many scores are not kept waiting.
   [[nodiscard]] std::size_t crowded() const { return config_.max_queued / 2 + 1; }
 
@@ -211,7 +235,7 @@ class Writer::Thread {
     }
     move_behind(batch.scores, queue_.scores);
     move_behind(batch.commands, queue_.commands);
-    if (is_new && losing_) batch.commands.emplace_back(*std::exchange(losing_, std::nullopt));
+    if (is_new) confess(batch);
     writing_ = batch.scores.size();
     writing_commands_ = batch.commands.size();
     return !batch.empty() || !stopping_;
@@ -246,7 +270,7 @@ class Writer::Thread {
       problem = error.what();
     }
     if (!failure) batch.scores.clear();
-    conclude(batch.scores.size(), problem);
+    conclude(batch.scores.size(), failure ? kept_commands(batch) : 0, problem);
     answer_all(batch, failure);
     if (!failure) batch.commands.clear();
     return !failure;
@@ -282,10 +306,10 @@ class Writer::Thread {
     return std::min(latest_arrival_, *first_arrival_ + (Clock::now() - first_committed_) + kSlack);
   }
 
-  void conclude(std::size_t scores_left, const std::string& problem) {
+  void conclude(std::size_t scores_left, std::size_t commands_left, const std::string& problem) {
     const std::lock_guard lock(mutex_);
     writing_ = scores_left;
-    if (problem.empty()) writing_commands_ = 0;
+    writing_commands_ = commands_left;
     problem_ = problem;
     pause_ = problem.empty() ? kFirstPause : std::min(2 * pause_, config_.retry_max);
   }
@@ -309,6 +333,8 @@ class Writer::Thread {
   std::size_t writing_commands_ = 0;
   bool stopping_ = false;
   std::optional<Gap> losing_;  // refused scores that the store does not know of yet
+  std::uint64_t refused_ = 0;  // changes and entries that it does not know of
+  core::Stamp refused_at_;     // the latest of them
   std::string problem_;
   std::chrono::milliseconds pause_{kFirstPause};
   std::atomic<std::uint64_t> lost_ = 0;
@@ -324,7 +350,7 @@ bool Writer::add_score(const std::string& robot, const core::Score& score, core:
   return thread_->add(ScoreRow{robot, as_stored(score), arrival});
 }
 
-void Writer::put_incident(IncidentChange change) { thread_->add(std::move(change)); }
+void Writer::put_incident(IncidentChange change) { thread_->add(Command(std::move(change))); }
 
 void Writer::confirm_delivery(std::string event_id) {
   thread_->add(Command(Delivery{std::move(event_id)}));

@@ -20,6 +20,7 @@ struct WriterConfig {
   std::filesystem::path file;
   std::chrono::milliseconds commit_every{50};
   std::size_t max_queued = 100'000;           ///< scores
+  std::size_t max_changes = 10'000;           ///< of incidents, and other records
   std::chrono::milliseconds retry_max{1000};  ///< longest wait between attempts at a failed commit
   SegmentConfig segments = {};
   RetentionConfig retention = {};
@@ -29,8 +30,9 @@ struct WriterConfig {
 /// all else is committed at once. Old scores are packed and deleted along with the commits.
 ///
 /// While the disk refuses (full, I/O error) the Writer is not healthy; it keeps what it has and
-/// tries again with growing pauses, so that memory holds at most max_queued scores and the
-/// incidents. Scores that were refused, or died with a writer, leave a Gap.
+/// tries again with growing pauses, so that memory holds at most max_queued scores and max_changes
+/// other records. Scores that were refused, or died with a writer, leave a Gap; changes of
+/// incidents that were refused leave an entry in the audit trail with their number.
 class Writer {
  public:
   /// Opens and migrates the file (prepare_store). Throws StorageError if that fails, or another
@@ -44,12 +46,14 @@ class Writer {
   /// Kept as_stored(). False, and counted, if the queue is full. Never blocks. Any thread.
   bool add_score(const std::string& robot, const core::Score& score, core::Stamp arrival);
   /// Inserts or, by id, replaces unless the stored seq is higher; with its alert and an entry in
-  /// the audit trail in the same transaction. Never refused; while a thousand changes wait for a
-  /// failing disk, more are kept without evidence. Any thread.
+  /// the audit trail in the same transaction. While a thousand changes wait for a failing disk,
+  /// more are kept without evidence; while max_changes wait, more are refused and counted. Never
+  /// blocks. Any thread.
   void put_incident(IncidentChange change);
-  /// The alert with this id has arrived. Any thread.
+  /// The alert with this id has arrived; forgotten where put_incident() would refuse, for to
+  /// deliver it again does no harm. Any thread.
   void confirm_delivery(std::string event_id);
-  /// For what changes nothing else here, such as tokens. Any thread.
+  /// For what changes nothing else here, such as tokens; refused as by put_incident(). Any thread.
   void add_audit(AuditEntry entry);
   /// A new version of the configuration, as text; the future is ready when it is durable, and
   /// throws StorageError if it could not be written: then it never will be. Any thread.
@@ -59,7 +63,7 @@ class Writer {
   std::future<void> flush();
 
   [[nodiscard]] std::uint64_t queued() const;  ///< scores not yet durable
-  [[nodiscard]] std::uint64_t lost() const;    ///< scores refused
+  [[nodiscard]] std::uint64_t lost() const;    ///< scores, changes and entries refused
   [[nodiscard]] bool healthy() const;          ///< the last commit succeeded
   [[nodiscard]] std::string problem() const;   ///< why it did not; empty if healthy
   /// Where a damaged file was put aside when this Writer started, with a fresh one in its place.

@@ -72,6 +72,18 @@ TEST_F(AuditTest, EveryForgedFieldBreaksTheChain) {
   }
 }
 
+/// With a hash that is right for the entry itself: the one after it tells.
+TEST_F(AuditTest, AnEntryTakenFromAnotherChainBreaksTheNext) {
+  const StoreFolder folder;
+  Database other = created(folder.store());
+  AuditTrail trail(other);
+  for (int i = 1; i <= 5; ++i) trail.append(i == 3 ? entry(33) : entry(i));
+  tamper("DELETE FROM audit WHERE id = 3");
+  Statement(database_, "ATTACH ?1 AS other").bind(folder.store().string()).run();
+  database_.execute("INSERT INTO audit SELECT * FROM other.audit WHERE id = 3");
+  EXPECT_EQ(first_broken_audit_entry(database_), 4);
+}
+
 TEST_F(AuditTest, ARemovedEntryBreaksTheChain) {
   tamper("DELETE FROM audit WHERE id = 2");
   EXPECT_EQ(first_broken_audit_entry(database_), 2);

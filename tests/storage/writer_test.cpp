@@ -193,6 +193,28 @@ TEST_F(FaultyWriterTest, MemoryIsBoundedAndEveryRefusalCounted) {
   EXPECT_EQ(stored_scores(), 1000U);
 }
 
+TEST_F(FaultyWriterTest, ChangesBeyondTheBoundAreRefusedCountedAndTold) {
+  auto config = config_;
+  config.max_changes = 10;
+  Writer writer(config);
+  disk_.let_writes_return(SQLITE_FULL);
+  writer.add_score("robot-1", score_at(0), at_s(0));
+  await_trouble(writer);
+  for (int i = 0; i < 24; ++i) writer.put_incident({.incident = incident_of(i)});
+  writer.add_audit({.at = at_s(7), .actor = "eve", .action = "token.add"});
+  for (int i = 0; i < 100; ++i) writer.confirm_delivery("event");  // forgotten
+  EXPECT_EQ(writer.lost(), 15U);
+  disk_.let_writes_return(SQLITE_OK);
+  writer.flush().get();
+  writer.flush().get();
+  const Archive archive(folder_.store());
+  EXPECT_EQ(archive.incidents({}).size(), 10U);
+  const auto told = archive.audit(std::nullopt, 1).at(0).entry;
+  EXPECT_EQ(told.action, "store.refused");
+  EXPECT_EQ(told.detail, "15 records, the last one then");
+  EXPECT_EQ(told.at, at_s(7));
+}
+
 TEST_F(FaultyWriterTest, AConfigurationIsToldAtOnceThatItFailedAndStaysUnwritten) {
   Writer writer(config_);
   disk_.let_writes_return(SQLITE_FULL);
