@@ -4,6 +4,7 @@
 
 #include "service/commands/commands.hpp"
 #include "service/evaluate/localization.hpp"
+#include "service/evaluate/logs.hpp"
 #include "service/evaluate/paper.hpp"
 
 namespace kidnapwatch::service {
@@ -12,6 +13,7 @@ void add_evaluate(CLI::App& app, Command& chosen) {
   auto* command = app.add_subcommand("evaluate", "Measure detectors and the baselines");
   command->require_subcommand(1);
   add_evaluate_localization(*command, chosen);
+  add_evaluate_logs(*command, chosen);
   add_evaluate_paper(*command, chosen);
 }
 
