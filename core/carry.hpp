@@ -21,6 +21,14 @@ class Carry {
   /// Starts over after an alarm or a jump; what was learned stays.
   void reset();
 
+  /// As Tail::visit_learned.
+  template <typename Self, typename Visit>
+  static void visit_learned(Self& self, Visit& visit) {
+    Tail::visit_learned(self.way_, visit);
+    Tail::visit_learned(self.turn_, visit);
+    visit(self.mean_);
+  }
+
   [[nodiscard]] float cusum() const { return cusum_; }
   [[nodiscard]] bool alarmed() const { return cusum_ >= kAlarm; }
 

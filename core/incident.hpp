@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/cause.hpp"
 #include "core/session.hpp"
 
 namespace kidnapwatch::core {
@@ -36,6 +37,7 @@ struct Incident {
   std::string robot;
   std::uint32_t seq = 0;  ///< changes so far; 1 when opened
   IncidentKind kind = IncidentKind::teleport;
+  Cause cause = Cause::teleport;  ///< what it looks like
   IncidentState state = IncidentState::open;
   Stamp opened_at;                   ///< by the service's clock
   std::optional<Stamp> resolved_at;  ///< by the service's clock

@@ -208,9 +208,4 @@ float Habits::usual_violation() const {
   return std::exp(scales_[index(Feature::violating)].q90) - kShareFloor;
 }
 
-void Habits::restore(std::size_t feature, std::span<const float, Tail::kBins> remembered) {
-  tails_[feature].restore(remembered);
-  rescale();
-}
-
 }  // namespace kidnapwatch::core

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "core/alignment.hpp"
 #include "core/contour.hpp"
@@ -94,7 +93,13 @@ class Habits {
   [[nodiscard]] float usual_violation() const;
 
   [[nodiscard]] const std::array<Tail, kFeatures>& tails() const { return tails_; }
-  void restore(std::size_t feature, std::span<const float, Tail::kBins> remembered);
+
+  /// As Tail::visit_learned; rescale() after numbers were put back.
+  template <typename Self, typename Visit>
+  static void visit_learned(Self& self, Visit& visit) {
+    for (auto& tail : self.tails_) Tail::visit_learned(tail, visit);
+  }
+  void rescale();
 
  private:
   struct Scale {
@@ -102,7 +107,6 @@ class Habits {
     float mean_excess = 1.0F;
   };
   [[nodiscard]] float unusual(Feature feature, const Features& features) const;
-  void rescale();
 
   std::array<Tail, kFeatures> tails_;
   std::array<Scale, kFeatures> scales_{};

@@ -14,6 +14,7 @@ constexpr float kLearnable = 1.5F;     // times the fleet's threshold: higher is
 constexpr float kScreen = 0.9F;        // pairs below this quantile of the scores need no confirming
 constexpr float kGapAllowance = 1.5F;  // per e-fold of missed scans
 constexpr double kGapMax = 10.0;
+constexpr float kLearnedFormat = 1.0F;  // another number where their meaning changes
 constexpr double kPeriodStep = 1.05;
 constexpr double kCoast = 0.8;  // of the speed is kept, per scan that does not tell it
 constexpr double kUsualRate = 0.05;
@@ -97,6 +98,32 @@ void MotionDetector::forget_scans() {
   velocity_ = {};
   last_ = {};
   carry_.reset();
+}
+
+template <typename Self, typename Visit>
+void MotionDetector::visit_learned(Self& self, Visit& visit) {
+  Habits::visit_learned(self.habits_, visit);
+  WheelModel::visit_learned(self.model_, visit);
+  Tail::visit_learned(self.scores_, visit);
+  Carry::visit_learned(self.carry_, visit);
+  for (auto* number : {&self.period_s_, &self.usual_.x_m, &self.usual_.y_m}) visit(*number);
+}
+
+std::vector<float> MotionDetector::learned() const {
+  std::vector<float> numbers{kLearnedFormat};
+  const auto keep = [&](const auto& number) { numbers.push_back(static_cast<float>(number)); };
+  visit_learned(*this, keep);
+  return numbers;
+}
+
+bool MotionDetector::restore(std::span<const float> learned) {
+  const bool is_finite = std::ranges::all_of(learned, [](float x) { return std::isfinite(x); });
+  if (!is_finite || learned.size() != this->learned().size() || learned[0] != kLearnedFormat)
+    return false;
+  auto put_back = [next = learned.begin()](auto& number) mutable { number = *++next; };
+  visit_learned(*this, put_back);
+  habits_.rescale();
+  return true;
 }
 
 std::optional<float> MotionDetector::threshold() const {

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/carry.hpp"
 #include "core/cause.hpp"
@@ -58,6 +60,12 @@ class MotionDetector {
   /// Forgets the last scans (a restart, a clock set back), not what was learned.
   void forget_scans();
 
+  /// All that was learned, to be kept over a restart.
+  [[nodiscard]] std::vector<float> learned() const;
+  /// Goes on with `learned`. False, and nothing is changed, if these are not the numbers of a
+  /// detector of this kind.
+  bool restore(std::span<const float> learned);
+
   [[nodiscard]] std::optional<float> threshold() const;
   [[nodiscard]] float pairs() const { return habits_.pairs(); }
   [[nodiscard]] const Habits& habits() const { return habits_; }
@@ -73,6 +81,8 @@ class MotionDetector {
     float suspicion = 0.0F;
   };
 
+  template <typename Self, typename Visit>
+  static void visit_learned(Self& self, Visit& visit);
   [[nodiscard]] Wheels told(const Scan& scan) const;
   [[nodiscard]] Claim claim(const Wheels& wheels) const;
   [[nodiscard]] Pair paired(const Contour& before, const Contour& now, const Wheels& wheels) const;

@@ -15,8 +15,9 @@ namespace kidnapwatch::core {
 struct RobotStatus {
   std::string id;
   RobotState state = RobotState::unknown;
-  Stamp last_arrival;          ///< of any scan, by the service's clock
-  std::optional<Score> score;  ///< the latest
+  std::optional<Trouble> trouble;  ///< why it is degraded
+  Stamp last_arrival;              ///< of any scan, by the service's clock
+  std::optional<Score> score;      ///< the latest
   std::optional<double> threshold;
   std::uint64_t calibration_pairs = 0;
   std::uint64_t warmup_pairs = 0;          ///< calibration_pairs needed before there is a threshold

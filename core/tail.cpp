@@ -54,18 +54,6 @@ Tail::Excess Tail::excess(float from) const {
   return {result.sum * scale, result.count * scale};
 }
 
-std::array<float, Tail::kBins> Tail::remembered() const {
-  std::array<float, kBins> values = bins_;
-  for (float& value : values) value *= 1.0F / (weight_ * forget_);
-  return values;
-}
-
-void Tail::restore(std::span<const float, kBins> remembered) {
-  std::copy(remembered.begin(), remembered.end(), bins_.begin());
-  count_ = std::accumulate(bins_.begin(), bins_.end(), 0.0F);
-  weight_ = 1.0F;
-}
-
 float predicted_threshold(const Tail& tail, float rate, float prior_count, float prior_mean) {
   const float from = tail.quantile(1.0F - kTailShare);
   const Tail::Excess excess = tail.excess(from);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 namespace kidnapwatch::core {
 
@@ -30,9 +29,13 @@ class Tail {
 
   [[nodiscard]] float count() const { return count_; }  ///< what is remembered, in values
 
-  /// What is remembered, in values per bin: to be kept, and put back by restore().
-  [[nodiscard]] std::array<float, kBins> remembered() const;
-  void restore(std::span<const float, kBins> remembered);
+  /// Shows `visit` all numbers that were learned, one by one, to be kept or put back.
+  template <typename Self, typename Visit>
+  static void visit_learned(Self& self, Visit& visit) {
+    for (auto& bin : self.bins_) visit(bin);
+    visit(self.count_);
+    visit(self.weight_);
+  }
 
  private:
   [[nodiscard]] float width() const { return (high_ - low_) / static_cast<float>(kBins); }

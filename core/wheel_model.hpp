@@ -29,6 +29,17 @@ class WheelModel {
   /// Takes what the lidar saw instead: `seen` is T_before_now of a natural pair, well aligned.
   void learn(const Wheels& wheels, const Pose& seen);
 
+  /// As Tail::visit_learned.
+  template <typename Self, typename Visit>
+  static void visit_learned(Self& self, Visit& visit) {
+    for (auto& number : self.turning_.reshaped()) visit(number);
+    for (auto& number : self.going_.reshaped()) visit(number);
+    for (auto& number : self.turning_H_.reshaped()) visit(number);
+    for (auto& number : self.turning_b_.reshaped()) visit(number);
+    for (auto& number : self.going_H_.reshaped()) visit(number);
+    for (auto& number : self.going_b_.reshaped()) visit(number);
+  }
+
   [[nodiscard]] const Eigen::Vector2d& turning() const { return turning_; }
   [[nodiscard]] const Eigen::Vector4d& going() const { return going_; }
 

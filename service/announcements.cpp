@@ -37,4 +37,8 @@ void Announcements::announce_score(const std::string& robot, const core::Score& 
   writer_.add_score(robot, score, arrival);
 }
 
+void Announcements::keep_learned(const std::string& robot, std::vector<float> learned) {
+  writer_.put_learned(robot, std::move(learned));
+}
+
 }  // namespace kidnapwatch::service

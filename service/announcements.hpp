@@ -20,6 +20,7 @@ class Announcements final : public Announcer {
   void announce_alert(const core::Alert& alert, std::optional<core::ScanPair> evidence) override;
   void announce_score(const std::string& robot, const core::Score& score,
                       core::Stamp arrival) override;
+  void keep_learned(const std::string& robot, std::vector<float> learned) override;
 
  private:
   adapters::mqtt::Link& link_;

@@ -75,6 +75,10 @@ void Fleet::stop() {
   for (const auto& lane : lanes_) {
     lane->stop();
   }
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, member] : members_) {
+    member.watch->keep_learned();
+  }
 }
 
 std::vector<core::RobotStatus> Fleet::robots() const {

@@ -115,6 +115,17 @@ core::ConfigVersion starting_config(const storage::Archive& archive, const Setti
           .config = codecs::detection_config(codecs::parsed(stored->text, "stored config"))};
 }
 
+MessageKind message_kind(mqtt::TopicKind topic) {
+  switch (topic) {
+    case mqtt::TopicKind::odom:
+      return MessageKind::odometry;
+    case mqtt::TopicKind::particles:
+      return MessageKind::particles;
+    default:
+      return MessageKind::scan;
+  }
+}
+
 }  // namespace
 
 class Service::Parts final : public api::Fleet {
@@ -262,6 +273,7 @@ void Service::Parts::resume_robots() {
   std::map<std::string, Past> pasts;
   for (auto& robot : archive_.robots(fleet_.config().config.calibration.window_pairs)) {
     pasts[robot.robot].natural_scores = std::move(robot.natural_scores);
+    pasts[robot.robot].learned = std::move(robot.learned);
   }
   for (auto& incident : archive_.unresolved_incidents()) {
     const std::string robot = incident.robot;
@@ -275,13 +287,12 @@ void Service::Parts::resume_robots() {
 void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& message) {
   switch (topic.kind) {
     case mqtt::TopicKind::scan:
+    case mqtt::TopicKind::odom:
     case mqtt::TopicKind::particles:
-      fleet_.receive(std::string(topic.robot),
-                     {.payload = message.payload,
-                      .content_type = std::string(message.content_type),
-                      .arrival = now(),
-                      .kind = topic.kind == mqtt::TopicKind::scan ? MessageKind::scan
-                                                                  : MessageKind::particles});
+      fleet_.receive(std::string(topic.robot), {.payload = message.payload,
+                                                .content_type = std::string(message.content_type),
+                                                .arrival = now(),
+                                                .kind = message_kind(topic.kind)});
       break;
     case mqtt::TopicKind::bad_robot_id:
       fleet_.count(Outcome::bad_robot_id);
@@ -289,7 +300,6 @@ void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& mes
     case mqtt::TopicKind::unknown:
       fleet_.count(Outcome::unknown_topic);
       break;
-    case mqtt::TopicKind::odom:
     case mqtt::TopicKind::command:
     case mqtt::TopicKind::own:
       break;

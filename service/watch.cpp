@@ -9,6 +9,8 @@ namespace {
 
 using core::Outcome;
 
+constexpr std::size_t kKeepEvery = 500;  // scans; 12 kB each time
+
 core::AlertType alert_type(core::EpisodeChange change) {
   switch (change) {
     case core::EpisodeChange::opened:
@@ -26,6 +28,10 @@ void describe(core::Incident& incident, const core::Jump& jump) {
   incident.state = core::IncidentState::open;
   incident.before_stamp = jump.scans.before.stamp;
   incident.after_stamp = jump.scans.after.stamp;
+  incident.kind =
+      jump.cause == core::Cause::carry ? core::IncidentKind::carry : core::IncidentKind::teleport;
+  incident.cause = jump.cause;
+  incident.detector = jump.detector;
   incident.score = jump.score;
   incident.threshold = jump.threshold;
 }
@@ -43,6 +49,7 @@ Watch::Watch(std::string id, const Surroundings& around)
 }
 
 void Watch::resume(const Past& past) {
+  (void)session_.restore(past.learned);  // of another version: it is learned anew
   session_.resume(past.natural_scores, past.open_incident.has_value(), around_.uptime());
   incident_open_ = past.open_incident.has_value();
   incident_ = past.open_incident.value_or(core::Incident{});
@@ -51,6 +58,10 @@ void Watch::resume(const Past& past) {
 
 void Watch::take(const Message& message, Bench& bench) {
   refresh_config();
+  if (message.kind == MessageKind::odometry) {
+    take_odometry(message, bench);
+    return;
+  }
   if (message.kind == MessageKind::particles) {
     take_particles(message, bench);
     return;
@@ -62,6 +73,25 @@ void Watch::take(const Message& message, Bench& bench) {
   const core::RobotStatus after = status();
   if (after.state != before) {
     around_.announcer.announce_state(after, arrival);
+  }
+  const bool warmed_up = before == core::RobotState::unknown && after.state != before;
+  if (++unkept_ >= kKeepEvery || warmed_up) {
+    keep_learned();
+  }
+}
+
+void Watch::keep_learned() {
+  if (std::exchange(unkept_, 0) > 0) {
+    around_.announcer.keep_learned(id_, session_.learned());
+  }
+}
+
+void Watch::take_odometry(const Message& message, Bench& bench) {
+  try {
+    const auto [stamp, pose] = bench.odometry.decode(*message.payload);
+    odometry_.add(stamp, pose);
+  } catch (const core::BadInput& bad) {
+    around_.log_refusal(id_, bad);
   }
 }
 
@@ -79,6 +109,9 @@ void Watch::take_particles(const Message& message, Bench& bench) {
 Outcome Watch::outcome_of(const Message& message, Bench& bench) {
   try {
     bench.decoder.decode(*message.payload, message.content_type, bench.scan);
+    if (!bench.scan.odometry) {
+      bench.scan.odometry = odometry_.at(bench.scan.stamp);
+    }
     core::Observation seen = session_.observe(bench.scan, around_.uptime(), bench.workspace);
     if (seen.verdict) {
       conclude(*seen.verdict, message.arrival);
@@ -109,13 +142,11 @@ void Watch::conclude(core::Verdict& verdict, core::Stamp arrival) {
 void Watch::change_incident(core::EpisodeChange change, core::Stamp now) {
   std::optional<core::ScanPair> evidence;
   if (change == core::EpisodeChange::opened) {
-    incident_ =
-        core::Incident{.id = around_.new_id(now),
-                       .robot = id_,
-                       .opened_at = now,
-                       .scan_stamp = incident_.scan_stamp,
-                       .detector = std::string(core::detector_name(config_->config.dissimilarity)),
-                       .config_version = config_->version};
+    incident_ = core::Incident{.id = around_.new_id(now),
+                               .robot = id_,
+                               .opened_at = now,
+                               .scan_stamp = incident_.scan_stamp,
+                               .config_version = config_->version};
   }
   if (change == core::EpisodeChange::resolved) {
     incident_.state = core::IncidentState::resolved;
@@ -136,6 +167,9 @@ void Watch::tick() {
   {
     const std::lock_guard lock(mutex_);
     status_.state = session_.state(around_.uptime());
+    if (status_.state != core::RobotState::degraded) {
+      status_.trouble.reset();
+    }
   }
   const core::RobotStatus after = status();
   if (after.state != before) {
@@ -158,6 +192,7 @@ void Watch::refresh_config() {
 void Watch::refresh_status(core::Stamp arrival) {
   const std::lock_guard lock(mutex_);
   status_.state = session_.state(around_.uptime());
+  status_.trouble = status_.state == core::RobotState::degraded ? session_.trouble() : std::nullopt;
   status_.last_arrival = arrival;
   status_.threshold = session_.threshold();
   status_.calibration_pairs = session_.calibration_pairs();

@@ -11,15 +11,17 @@
 #include <span>
 #include <string>
 
+#include "adapters/codecs/odometry_json.hpp"
 #include "adapters/codecs/particles_payload.hpp"
 #include "adapters/codecs/scan_payload.hpp"
 #include "core/incident.hpp"
+#include "core/odometry_track.hpp"
 #include "core/status.hpp"
 #include "service/other_detectors.hpp"
 
 namespace kidnapwatch::service {
 
-enum class MessageKind : std::uint8_t { scan, particles };
+enum class MessageKind : std::uint8_t { scan, odometry, particles };
 
 /// A message from a robot, as it came from the broker.
 struct Message {
@@ -35,6 +37,7 @@ struct Bench {
       : decoder(payload), particles(payload.max_payload_bytes) {}
 
   adapters::codecs::ScanDecoder decoder;
+  adapters::codecs::OdometryDecoder odometry;
   adapters::codecs::ParticlesDecoder particles;
   core::Scan scan;
   core::DissimilarityWorkspace workspace;
@@ -49,6 +52,8 @@ class Announcer {
   virtual void announce_alert(const core::Alert& alert, std::optional<core::ScanPair> evidence) = 0;
   virtual void announce_score(const std::string& robot, const core::Score& score,
                               core::Stamp arrival) = 0;
+  /// Session::learned(), for the service's next start.
+  virtual void keep_learned(const std::string& robot, std::vector<float> learned) = 0;
 };
 
 /// What all watches share. The functions may be called from any lane.
@@ -64,8 +69,9 @@ struct Surroundings {
 
 /// What an earlier run of the service left of a robot.
 struct Past {
-  std::vector<double> natural_scores;  ///< oldest first
-  std::optional<core::Incident> open_incident;
+  std::vector<double> natural_scores = {};  ///< oldest first
+  std::vector<float> learned = {};          ///< Session::learned()
+  std::optional<core::Incident> open_incident = {};
 };
 
 class Watch {
@@ -74,10 +80,13 @@ class Watch {
 
   void resume(const Past& past);
 
-  /// On the robot's lane: one scan, to its end; or particles, for the next one.
+  /// On the robot's lane: one scan, to its end; or odometry, kept for the scans that have none; or
+  /// particles, for the next one.
   void take(const Message& message, Bench& bench);
   /// On the robot's lane, now and then: tells when the robot fell silent.
   void tick();
+  /// On the robot's lane, or after its end: hands over what was learned since it was last.
+  void keep_learned();
 
   /// Any thread.
   [[nodiscard]] core::RobotStatus status() const;
@@ -85,6 +94,7 @@ class Watch {
   [[nodiscard]] const std::string& id() const noexcept { return id_; }
 
  private:
+  void take_odometry(const Message& message, Bench& bench);
   [[nodiscard]] core::Outcome outcome_of(const Message& message, Bench& bench);
   void take_particles(const Message& message, Bench& bench);
   void conclude(core::Verdict& verdict, core::Stamp arrival);
@@ -96,9 +106,11 @@ class Watch {
   const Surroundings& around_;
   std::shared_ptr<const core::ConfigVersion> config_;
   core::Session session_;
+  core::OdometryTrack odometry_;
   OtherDetectors others_;
   core::Incident incident_;  // the latest; meaningless before the first
   bool incident_open_ = false;
+  std::size_t unkept_ = 0;  // scans since what was learned was kept
 
   mutable std::mutex mutex_;  // over status_ alone
   core::RobotStatus status_;

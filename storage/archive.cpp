@@ -47,6 +47,12 @@ std::optional<std::string> text(const std::optional<Name>& value) {
   return value ? std::optional(std::string(core::name(*value))) : std::nullopt;
 }
 
+std::vector<float> learned(Database& database, const std::string& robot) {
+  Statement query(database, "SELECT numbers FROM learned WHERE robot = ?1");
+  if (!query.bind(robot).step()) return {};
+  return floats(query.blob(0));
+}
+
 ConfigText config_from(const Statement& row) {
   return {
       .version = row.integer(0), .since = row.stamp(1), .author = row.text(2), .text = row.text(3)};
@@ -190,7 +196,9 @@ std::vector<RobotHistory> Archive::robots(std::size_t natural_scores) const {
   std::vector<RobotHistory> robots;
   while (query.step()) {
     auto found = history(lease, *all_recent, query.text(0), natural_scores);
-    if (found) robots.push_back(std::move(*found));
+    if (!found) continue;
+    found->learned = learned(lease, found->robot);
+    robots.push_back(std::move(*found));
   }
   return robots;
 }

@@ -58,7 +58,8 @@ class Archive {
   /// See first_broken_audit_entry.
   [[nodiscard]] std::optional<std::int64_t> broken_audit_entry() const;
 
-  /// Every robot that has a score, by id, with its last `natural_scores` natural scores.
+  /// Every robot that has a score, by id, with its last `natural_scores` natural scores and what
+  /// was learned.
   [[nodiscard]] std::vector<RobotHistory> robots(std::size_t natural_scores) const;
 
  private:

@@ -9,11 +9,11 @@ namespace {
 
 // A change that was overtaken by a later one of the same incident changes nothing.
 constexpr std::string_view kPutIncident = R"(
-INSERT INTO incident VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)
+INSERT INTO incident VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)
 ON CONFLICT (id) DO UPDATE SET
   robot = ?2, seq = ?3, kind = ?4, state = ?5, opened_at = ?6, resolved_at = ?7, scan_stamp = ?8,
   before_stamp = ?9, after_stamp = ?10, detector = ?11, score = ?12, threshold = ?13,
-  config_version = ?14
+  config_version = ?14, cause = ?15
 WHERE ?3 >= seq)";
 
 // Of the incident of message ?1: the latest alert stays until the incident is resolved.
@@ -47,6 +47,8 @@ Journal::Journal(Database& database)
                    "INSERT OR IGNORE INTO outbox (event_id, incident, robot, payload) "
                    "VALUES (?1, ?2, ?3, ?4)"),
       add_gap_(database, "INSERT INTO gap (since, until, reason, scores) VALUES (?1, ?2, ?3, ?4)"),
+      put_learned_(database,
+                   "INSERT INTO learned VALUES (?1, ?2) ON CONFLICT DO UPDATE SET numbers = ?2"),
       confirm_(database, "UPDATE outbox SET delivered = 1 WHERE event_id = ?1"),
       tidy_outbox_(database, kTidyOutbox),
       audit_(database) {}
@@ -80,6 +82,10 @@ void Journal::add(const ConfigText& config) {
 
 void Journal::add(const Gap& gap) {
   add_gap_.bind(gap.since, gap.until, gap.reason, gap.scores).run();
+}
+
+void Journal::put_learned(const std::string& robot, std::span<const float> numbers) {
+  put_learned_.bind(robot, std::as_bytes(numbers)).run();
 }
 
 void Journal::confirm(const std::string& event_id) {

@@ -2,6 +2,7 @@
 // What is written but scores: incidents with all that belongs to them, and configurations.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "storage/audit.hpp"
@@ -17,6 +18,8 @@ class Journal {
   explicit Journal(Database& database);
 
   void put(const IncidentChange& change);
+  /// Replaces what was learned of the robot before.
+  void put_learned(const std::string& robot, std::span<const float> numbers);
   void add(const ConfigText& config);
   void add(const AuditEntry& entry) { audit_.append(entry); }
   void add(const Gap& gap);
@@ -32,6 +35,7 @@ class Journal {
   Statement add_config_;
   Statement add_message_;
   Statement add_gap_;
+  Statement put_learned_;
   Statement confirm_;
   Statement tidy_outbox_;
   AuditTrail audit_;

@@ -92,6 +92,7 @@ struct RobotHistory {
   core::Stamp last_arrival;  ///< of the latest score, by the service's clock
   core::Score latest;
   std::vector<double> natural_scores;  ///< costs while normal or unknown, oldest first
+  std::vector<float> learned;          ///< as it was put last
 };
 
 }  // namespace kidnapwatch::storage

@@ -12,12 +12,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "float blobs are little-endian");
 
-std::vector<float> floats(std::span<const std::byte> bytes) {
-  std::vector<float> values(bytes.size() / sizeof(float));
-  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
-  return values;
-}
-
 std::optional<core::Pose> pose_from(const Statement& row, int first) {
   if (row.is_null(first)) return std::nullopt;
   return core::Pose{row.real(first), row.real(first + 1), row.real(first + 2)};
@@ -50,6 +44,12 @@ core::DetectorId known_detector(std::uint8_t number) {
                                ", which is unknown");
   }
   return core::DetectorId{number};
+}
+
+std::vector<float> floats(std::span<const std::byte> bytes) {
+  std::vector<float> values(bytes.size() / sizeof(float));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+  return values;
 }
 
 core::Score score_from(const Statement& row, int first) {
@@ -88,6 +88,7 @@ core::Incident incident_from(const Statement& row) {
   incident.score = row.real(11);
   incident.threshold = row.real(12);
   incident.config_version = row.integer(13);
+  incident.cause = core::cause(row.text(14), "cause");
   return incident;
 }
 
@@ -95,7 +96,8 @@ void bind_incident(Statement& upsert, const core::Incident& incident) {
   upsert.bind(incident.id, incident.robot, incident.seq, core::name(incident.kind),
               core::name(incident.state), incident.opened_at, incident.resolved_at,
               incident.scan_stamp, incident.before_stamp, incident.after_stamp, incident.detector,
-              incident.score, incident.threshold, incident.config_version);
+              incident.score, incident.threshold, incident.config_version,
+              core::name(incident.cause));
 }
 
 core::Scan scan_from(const Statement& row) {

@@ -2,7 +2,10 @@
 // Values of core as rows, and back.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/incident.hpp"
 #include "core/session.hpp"
@@ -24,7 +27,7 @@ inline constexpr std::string_view kScoreColumns =
 /// In the order that incident_from reads them.
 inline constexpr std::string_view kIncidentColumns =
     "id, robot, seq, kind, state, opened_at, resolved_at, scan_stamp, before_stamp, after_stamp, "
-    "detector, score, threshold, config_version";
+    "detector, score, threshold, config_version, cause";
 
 /// The incident in the current row.
 [[nodiscard]] core::Incident incident_from(const Statement& row);
@@ -36,6 +39,9 @@ inline constexpr std::string_view kScanColumns =
 
 /// The scan in the current row.
 [[nodiscard]] core::Scan scan_from(const Statement& row);
+
+/// What a blob of float32, little-endian, holds.
+[[nodiscard]] std::vector<float> floats(std::span<const std::byte> bytes);
 
 /// The statement with these values: score as ?3..., of a robot's row.
 void bind_score(Statement& insert, std::int64_t robot, core::Stamp arrival,

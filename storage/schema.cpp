@@ -48,8 +48,8 @@ CREATE TABLE incident (
   id TEXT PRIMARY KEY, robot TEXT NOT NULL, seq INTEGER NOT NULL, kind TEXT NOT NULL,
   state TEXT NOT NULL, opened_at INTEGER NOT NULL, resolved_at INTEGER,
   scan_stamp INTEGER NOT NULL, before_stamp INTEGER NOT NULL, after_stamp INTEGER NOT NULL,
-  detector TEXT NOT NULL, score REAL, threshold REAL, config_version INTEGER NOT NULL
-) STRICT, WITHOUT ROWID;
+  detector TEXT NOT NULL, score REAL, threshold REAL, config_version INTEGER NOT NULL,
+  cause TEXT NOT NULL) STRICT, WITHOUT ROWID;
 CREATE INDEX incident_of_robot ON incident (robot, id);
 CREATE INDEX incident_by_opening ON incident (opened_at);
 CREATE INDEX incident_unresolved ON incident (id) WHERE state <> 'resolved';
@@ -65,6 +65,11 @@ CREATE TABLE evidence_scan (
 CREATE TABLE config (
   version INTEGER PRIMARY KEY, since INTEGER NOT NULL, author TEXT NOT NULL, text TEXT NOT NULL
 ) STRICT;
+
+-- What was learned of a robot, for the service's next start.
+CREATE TABLE learned (
+  robot TEXT PRIMARY KEY, numbers BLOB NOT NULL  -- float32, little-endian
+) STRICT, WITHOUT ROWID;
 
 -- Alerts that nobody has confirmed yet, and the latest of each unresolved incident.
 CREATE TABLE outbox (

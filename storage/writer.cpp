@@ -10,9 +10,9 @@
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "storage/batch.hpp"
 #include "storage/crash_mark.hpp"
 #include "storage/file_lock.hpp"
 #include "storage/journal.hpp"
@@ -38,28 +38,6 @@ Database open_for_writing(const std::filesystem::path& file) {
       "PRAGMA journal_size_limit = 67108864; PRAGMA cache_size = -16000");
   return database;
 }
-
-/// Something that somebody waits for.
-struct Awaited {
-  std::optional<ConfigText> config;  // nothing: a flush
-  std::promise<void> done;
-  std::exception_ptr refusal = nullptr;  // by the schema
-};
-
-/// A message that was confirmed.
-struct Delivery {
-  std::string event_id;
-};
-
-using Command = std::variant<IncidentChange, AuditEntry, Delivery, Gap, Awaited>;
-
-/// What one transaction writes.
-struct Batch {
-  std::vector<ScoreRow> scores;
-  std::vector<Command> commands;
-
-  [[nodiscard]] bool empty() const { return scores.empty() && commands.empty(); }
-};
 
 template <typename T>
 void move_behind(std::vector<T>& to, std::vector<T>& from) {
@@ -144,6 +122,14 @@ class Writer::Thread {
     }
     changed_.notify_all();
     return true;
+  }
+
+  void put_learned(const std::string& robot, std::vector<float> numbers) {
+    {
+      const std::lock_guard lock(mutex_);
+      queue_.learned[robot] = std::move(numbers);
+    }
+    changed_.notify_all();
   }
 
   void add(Command command) {
@@ -235,6 +221,8 @@ class Writer::Thread {
     }
     move_behind(batch.scores, queue_.scores);
     move_behind(batch.commands, queue_.commands);
+    queue_.learned.merge(batch.learned);  // what is newer stays
+    batch.learned = std::exchange(queue_.learned, {});
     if (is_new) confess(batch);
     writing_ = batch.scores.size();
     writing_commands_ = batch.commands.size();
@@ -273,6 +261,7 @@ class Writer::Thread {
     conclude(batch.scores.size(), failure ? kept_commands(batch) : 0, problem);
     answer_all(batch, failure);
     if (!failure) batch.commands.clear();
+    if (!failure) batch.learned.clear();
     return !failure;
   }
 
@@ -282,6 +271,7 @@ class Writer::Thread {
     if (retention_.is_cleaning()) retention_.clean_some();  // first: it makes room for the rest
     if (!batch.scores.empty()) crash_mark_.set(batch.scores.front().arrival);
     segments_.write(batch.scores);
+    for (const auto& [robot, numbers] : batch.learned) journal_.put_learned(robot, numbers);
     for (Command& command : batch.commands) {
       std::visit([this](auto& change) { storage::write(journal_, change); }, command);
     }
@@ -351,6 +341,10 @@ bool Writer::add_score(const std::string& robot, const core::Score& score, core:
 }
 
 void Writer::put_incident(IncidentChange change) { thread_->add(Command(std::move(change))); }
+
+void Writer::put_learned(const std::string& robot, std::vector<float> numbers) {
+  thread_->put_learned(robot, std::move(numbers));
+}
 
 void Writer::confirm_delivery(std::string event_id) {
   thread_->add(Command(Delivery{std::move(event_id)}));

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "storage/records.hpp"
 #include "storage/retention.hpp"
@@ -50,6 +51,9 @@ class Writer {
   /// more are kept without evidence; while max_changes wait, more are refused and counted. Never
   /// blocks. Any thread.
   void put_incident(IncidentChange change);
+  /// Keeps numbers, whose meaning is the caller's, in place of those put before of the same robot,
+  /// with the next group commit. Any thread.
+  void put_learned(const std::string& robot, std::vector<float> numbers);
   /// The alert with this id has arrived; forgotten where put_incident() would refuse, for to
   /// deliver it again does no harm. Any thread.
   void confirm_delivery(std::string event_id);

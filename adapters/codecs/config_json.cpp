@@ -33,9 +33,24 @@ void each_member(Config& config, Visit& visit) {
   visit("window_pairs", config.window_pairs);
 }
 
+template <typename Visit, MaybeConst<core::Pose> Config>
+void each_member(Config& config, Visit& visit) {
+  visit("x_m", config.x_m);
+  visit("y_m", config.y_m);
+  visit("theta_rad", config.theta_rad);
+}
+
+template <typename Visit, MaybeConst<core::MotionConfig> Config>
+void each_member(Config& config, Visit& visit) {
+  visit("threshold_min", config.threshold_min);
+  visit("sensor", config.sensor);
+}
+
 template <typename Visit, MaybeConst<core::DetectionConfig> Config>
 void each_member(Config& config, Visit& visit) {
+  visit("alarm", config.alarm);
   visit("dissimilarity", config.dissimilarity);
+  visit("motion", config.motion);
   visit("calibration", config.calibration);
   visit("threshold", config.threshold);
   visit("detectors", config.detectors);
@@ -45,6 +60,9 @@ void each_member(Config& config, Visit& visit) {
 }
 
 using Names = std::string_view;
+constexpr std::array<Names, 4> names(core::AlarmBy) {
+  return {"motion_consistency", "qs2ddtw", "either", "both"};
+}
 constexpr std::array<Names, 2> names(core::Dimension) { return {"ranges", "points"}; }
 constexpr std::array<Names, 4> names(core::Gate) {
   return {"paper", "homogeneous", "never", "always"};

@@ -61,12 +61,24 @@ std::string csv_line(const core::Score& score) {
 
 }  // namespace
 
+Json json(const core::MotionScore& motion) {
+  Json object = Json::object();
+  set(object, "score", motion.score);
+  set(object, "confirmed", motion.confirmed);
+  set(object, "threshold", motion.threshold);
+  set(object, "carry", motion.carry);
+  return object;
+}
+
 Json json(const core::Score& score) {
   Json object{{"time", rfc3339(score.stamp)}, {"referenceTime", rfc3339(score.reference)}};
   set(object, "score", score.dissimilarity.cost);
   set(object, "scorePerBeam", score.dissimilarity.cost_per_beam);
   set(object, "standardized", score.dissimilarity.standardized);
   set(object, "threshold", score.threshold);
+  if (score.motion) {
+    object["motion"] = json(*score.motion);
+  }
   set(object, "state", core::name(score.state));
   if (const Json others = json(score.others); !others.empty()) {
     object["detectors"] = others;
@@ -79,6 +91,7 @@ Json json(const core::Incident& incident) {
               {"robotId", incident.robot},
               {"seq", incident.seq},
               {"kind", core::name(incident.kind)},
+              {"cause", core::name(incident.cause)},
               {"state", core::name(incident.state)},
               {"openedAt", rfc3339(incident.opened_at)}};
   if (incident.resolved_at) {
@@ -90,6 +103,7 @@ Json json(const core::Incident& incident) {
   object["detector"] = incident.detector;
   set(object, "score", incident.score);
   set(object, "threshold", incident.threshold);
+  object["explanation"] = core::sentence(incident.cause);
   object["configVersion"] = incident.config_version;
   return object;
 }

@@ -13,6 +13,7 @@
 
 namespace kidnapwatch::adapters::codecs {
 
+[[nodiscard]] Json json(const core::MotionScore& motion);
 [[nodiscard]] Json json(const core::Score& score);
 
 [[nodiscard]] Json json(const core::Incident& incident);

@@ -31,6 +31,7 @@ std::string alert_message(const core::Alert& alert) {
                {"seq", incident.seq},
                {"type", core::name(alert.type)},
                {"kind", core::name(incident.kind)},
+              {"cause", core::name(incident.cause)},
                {"robotId", incident.robot},
                {"state", core::name(incident.state)},
                {"severity", severity(incident)},
@@ -45,6 +46,7 @@ std::string alert_message(const core::Alert& alert) {
   }
   set(message, "score", incident.score);
   set(message, "threshold", incident.threshold);
+  message["explanation"] = core::sentence(incident.cause);
   message["configVersion"] = incident.config_version;
   message["links"] = {{"incident", "/api/v1/incidents/" + incident.id}};
   return text(message);
@@ -55,6 +57,10 @@ std::string state_message(const core::RobotStatus& robot, core::Stamp now) {
                {"robotId", robot.id},
                {"state", core::name(robot.state)},
                {"timestamp", rfc3339(now)}};
+  if (robot.trouble) {
+    message["trouble"] = name(*robot.trouble);
+    message["explanation"] = sentence(*robot.trouble);
+  }
   set(message, "incidentId", robot.incident_id);
   set(message, "threshold", robot.threshold);
   message["calibration"] = {{"pairs", robot.calibration_pairs}, {"needed", robot.warmup_pairs}};

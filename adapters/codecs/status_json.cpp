@@ -31,6 +31,10 @@ Json json(const core::RobotStatus& robot) {
   Json object{{"id", robot.id},
               {"state", core::name(robot.state)},
               {"lastScanAt", rfc3339(robot.last_arrival)}};
+  if (robot.trouble) {
+    object["trouble"] = name(*robot.trouble);
+    object["explanation"] = sentence(*robot.trouble);
+  }
   set(object, "incidentId", robot.incident_id);
   set(object, "threshold", robot.threshold);
   object["calibration"] = {{"pairs", robot.calibration_pairs}, {"needed", robot.warmup_pairs}};

@@ -78,14 +78,6 @@ TEST(Habits, AllowsForMoreMotionThanUsual) {
   EXPECT_GT(normal.allowance(compared(fast, fast).features), 2.0F);
 }
 
-TEST(Habits, IsTheSameAfterBeingKeptAndPutBack) {
-  const Habits normal = experienced();
-  Habits again;
-  for (std::size_t i = 0; i < kFeatures; ++i) again.restore(i, normal.tails()[i].remembered());
-  const Features features = compared({0.3, 0.0, 0.0}, {}).features;
-  EXPECT_NEAR(again.clues(features).sum(), normal.clues(features).sum(), 0.1F);
-}
-
 TEST(Confirmed, WantsBothPairsAndTheSilenceOfTheNext) {
   const Clues strong{10.0F, 8.0F, 0.0F, 0.0F};
   const Clues nothing;

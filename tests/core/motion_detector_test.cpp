@@ -173,6 +173,36 @@ TEST_F(MotionDetectorTest, LearnsNothingWhenToldSo) {
   EXPECT_EQ(detector_.pairs(), pairs);
 }
 
+TEST_F(MotionDetectorTest, GoesOnWithWhatWasLearnedBefore) {
+  drive(300);
+  const std::vector<float> learned = detector_.learned();
+  MotionDetector next{MotionConfig{}};
+  ASSERT_TRUE(next.restore(learned));
+  EXPECT_EQ(next.learned(), learned);
+  EXPECT_EQ(next.threshold(), detector_.threshold());
+  detector_ = next;  // which has seen no scan yet
+  at_ = {5.9, 2.6, 1.5708};
+  drive(5);
+  EXPECT_EQ(alarms_, 0);
+  at_ = {1.2, 5.0, 0.4};
+  drive(5);
+  EXPECT_EQ(alarms_, 1);
+}
+
+TEST_F(MotionDetectorTest, RefusesWhatItNeverLearned) {
+  drive(100);
+  std::vector<float> learned = detector_.learned();
+  MotionDetector next{MotionConfig{}};
+  EXPECT_FALSE(next.restore({}));
+  EXPECT_FALSE(next.restore(std::span(learned).first(learned.size() - 1)));
+  learned[0] += 1.0F;  // of another version
+  EXPECT_FALSE(next.restore(learned));
+  learned = detector_.learned();
+  learned[5] = std::nanf("");
+  EXPECT_FALSE(next.restore(learned));
+  EXPECT_EQ(next.pairs(), 0.0F);
+}
+
 TEST_F(MotionDetectorTest, ComparesNothingAcrossForgottenScans) {
   drive(200);
   detector_.forget_scans();

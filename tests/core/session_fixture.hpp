@@ -12,6 +12,7 @@ namespace kidnapwatch::core {
 /// Scores are sums of differences of ranges: 40 times that of the radii of two round rooms.
 inline DetectionConfig plain_config() {
   DetectionConfig config;
+  config.alarm = AlarmBy::qs2ddtw;
   config.dissimilarity = {.dimension = Dimension::ranges, .gate = Gate::never};
   config.threshold = 4.0;  // 0.1 m of radius
   config.resync_scans = 3;

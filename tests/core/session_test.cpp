@@ -181,6 +181,7 @@ TEST_F(SessionTest, IsResolvedFromOutsideOnce) {
 
 TEST(Session, FindsARoomChangedWithThePapersScore) {
   DetectionConfig config;
+  config.alarm = AlarmBy::qs2ddtw;
   config.calibration.warmup_pairs = 20;
   Session session(config);
   for (int i = 0; i <= 40; ++i) {

@@ -65,6 +65,7 @@ struct Result {
 
 Result result_of(const Trace& trace, std::optional<double> threshold = {}) {
   DetectionConfig config;
+  config.alarm = AlarmBy::qs2ddtw;
   config.calibration.warmup_pairs = 50;
   config.threshold = threshold;
   Session session(config);

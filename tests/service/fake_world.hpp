@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -28,6 +29,12 @@ class Heard : public Announcer {
     scores_.push_back(score);
   }
 
+  void keep_learned(const std::string& robot, std::vector<float> learned) override {
+    const std::lock_guard lock(mutex_);
+    learned_[robot] = std::move(learned);
+  }
+
+  std::map<std::string, std::vector<float>> learned() const { return locked(learned_); }
   std::vector<std::string> states() const { return locked(states_); }
   std::vector<core::Alert> alerts() const { return locked(alerts_); }
   std::vector<std::optional<core::ScanPair>> evidence() const { return locked(evidence_); }
@@ -45,6 +52,7 @@ class Heard : public Announcer {
   std::vector<core::Alert> alerts_;
   std::vector<std::optional<core::ScanPair>> evidence_;
   std::vector<core::Score> scores_;
+  std::map<std::string, std::vector<float>> learned_;
 };
 
 inline core::Stamp at_s(double seconds) { return core::later_by_s(core::Stamp{}, seconds); }
@@ -70,6 +78,7 @@ inline Message message(std::string payload, core::Stamp arrival) {
 
 inline core::ConfigVersion with_threshold(double threshold) {
   core::ConfigVersion version;
+  version.config.alarm = core::AlarmBy::qs2ddtw;
   version.config.threshold = threshold;
   return version;
 }

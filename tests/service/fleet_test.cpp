@@ -162,6 +162,7 @@ TEST_F(FleetTest, RefusesStrangeNamesAndTooManyRobots) {
 TEST_F(FleetTest, PutsAConfigurationOnlyOnceItIsSaved) {
   Fleet fleet({.lanes = 1}, outside(), {});
   core::DetectionConfig config;
+  config.alarm = core::AlarmBy::qs2ddtw;
   config.threshold = 70.0;
   EXPECT_EQ(fleet.put_config(config, 0, "me").version, 1);
   EXPECT_EQ(saved_.at(0).config.threshold, 70.0);
@@ -175,10 +176,25 @@ TEST_F(FleetTest, PutsAConfigurationOnlyOnceItIsSaved) {
 }
 
 TEST_F(FleetTest, ResumesRobotsOfAnEarlierRun) {
-  Fleet fleet({.lanes = 1}, outside(), {});
-  fleet.resume("old", {.natural_scores = std::vector<double>(200, 10.0), .open_incident = {}});
+  core::ConfigVersion by_the_paper;
+  by_the_paper.config.alarm = core::AlarmBy::qs2ddtw;
+  Fleet fleet({.lanes = 1}, outside(), by_the_paper);
+  fleet.resume("old", {.natural_scores = std::vector<double>(200, 10.0)});
   EXPECT_EQ(fleet.robot("old")->calibration_pairs, 200U);
   EXPECT_EQ(fleet.robot("old")->threshold, 10.0);
+}
+
+TEST_F(FleetTest, KeepsWhatItLearnedForTheNextRun) {
+  Fleet fleet({.lanes = 1}, outside(), {});
+  for (int i = 0; i < 40; ++i) {
+    fleet.receive("r1", test::message(round_room(2.0, i), fixed_now()));
+  }
+  fleet.stop();
+  const auto pairs = fleet.robot("r1")->calibration_pairs;
+  EXPECT_GT(pairs, 30U);
+  Fleet next({.lanes = 1}, outside(), {});
+  next.resume("r1", {.learned = heard_.learned().at("r1")});
+  EXPECT_EQ(next.robot("r1")->calibration_pairs, pairs);
 }
 
 }  // namespace

@@ -169,5 +169,43 @@ TEST_F(WatchTest, RecordsTheDetectorsThatAreAskedForAndTheRobotsParticles) {
   EXPECT_EQ(counted(Outcome::malformed), 0U);  // it counts scans
 }
 
+TEST_F(WatchTest, KeepsWhatItLearnedNowAndThen) {
+  drive(2.0, 499);
+  EXPECT_TRUE(heard_.learned().empty());
+  drive(2.0, 1);
+  EXPECT_EQ(heard_.learned().count("r1"), 1U);
+}
+
+std::string odometry(double stamp_s, double x) {
+  return R"({"stamp":)" + std::to_string(stamp_s) + R"(,"x":)" + std::to_string(x) +
+         R"(,"y":0,"theta":0})";
+}
+
+TEST_F(WatchTest, InterpolatesOdometryToTheScansTime) {
+  const auto tell = [&](double at_s, double x) {
+    Message message = test::message(odometry(at_s, x), now_);
+    message.kind = MessageKind::odometry;
+    watch_.take(message, bench_);
+  };
+  drive(2.0, 1);  // at 100.2 s
+  tell(100.3, 0.0);
+  tell(100.5, 1.0);
+  drive(2.0, 1);
+  drive(6.0, 2);
+  ASSERT_EQ(heard_.evidence().size(), 1U);
+  const auto& scans = *heard_.evidence()[0];
+  ASSERT_TRUE(scans.before.odometry);
+  EXPECT_NEAR(scans.before.odometry->x_m, 0.5, 1e-3);  // at 100.4 s
+  EXPECT_NEAR(scans.after.odometry->x_m, 1.5, 1e-3);   // at 100.6 s, going on
+}
+
+TEST_F(WatchTest, RefusesBadOdometryWithoutCountingItAsAScan) {
+  drive(2.0, 1);
+  Message message = test::message("{garbage", now_);
+  message.kind = MessageKind::odometry;
+  watch_.take(message, bench_);
+  EXPECT_EQ(counted(Outcome::malformed), 0U);
+}
+
 }  // namespace
 }  // namespace kidnapwatch::service

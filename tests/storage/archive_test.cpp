@@ -69,6 +69,7 @@ TEST_F(ArchiveTest, ScoresAreThoseOfTheRobotAndTheRangeOldestFirst) {
 TEST_F(ArchiveTest, AnIncidentComesBackInEveryField) {
   auto incident = incident_of(1);
   incident.kind = IncidentKind::carry;
+  incident.cause = core::Cause::slip;
   incident.state = IncidentState::resolved;
   incident.resolved_at = at_s(77);
   put(incident);

@@ -48,6 +48,22 @@ TEST_F(WriterTest, ScoresWaitForEachOther) {
   EXPECT_EQ(stored_scores(), 0U);
 }
 
+TEST_F(WriterTest, WhatIsLearnedReplacesWhatWas) {
+  {
+    Writer writer({.file = folder_.store(), .commit_every = kNever});
+    writer.add_score("robot-1", score_at(1), at_s(1));
+    writer.add_score("robot-2", score_at(1), at_s(1));
+    writer.put_learned("robot-1", {1.0F, 2.0F});
+    writer.flush().get();
+    writer.put_learned("robot-1", {3.0F});
+    writer.put_learned("robot-1", {4.0F, -0.5F, 1e-6F});
+  }
+  const auto robots = Archive(folder_.store()).robots(1);
+  ASSERT_EQ(robots.size(), 2U);
+  EXPECT_EQ(robots[0].learned, (std::vector{4.0F, -0.5F, 1e-6F}));
+  EXPECT_TRUE(robots[1].learned.empty());
+}
+
 TEST_F(WriterTest, AnIncidentWaitsForNothingAndTakesTheScoresAlong) {
   Writer writer({.file = folder_.store(), .commit_every = kNever});
   writer.add_score("robot-1", score_at(1), at_s(1));

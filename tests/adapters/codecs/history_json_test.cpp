@@ -60,14 +60,17 @@ TEST(HistoryJson, SpellsAnIncident) {
                                 .score = 500.0,
                                 .threshold = 180.0,
                                 .config_version = 4};
-  EXPECT_EQ(text(json(incident)),
-            R"({"id":"0190","robotId":"r1","seq":2,"kind":"teleport","state":"resolved",)"
-            R"("openedAt":"1970-01-01T00:00:10.000000000Z",)"
-            R"("resolvedAt":"1970-01-01T00:00:20.000000000Z",)"
-            R"("beforeTime":"1970-01-01T00:00:01.000000000Z",)"
-            R"("afterTime":"1970-01-01T00:00:02.000000000Z",)"
-            R"("scanTime":"1970-01-01T00:00:03.000000000Z","detector":"qs2ddtw","score":500.0,)"
-            R"("threshold":180.0,"configVersion":4})");
+  EXPECT_EQ(
+      text(json(incident)),
+      R"({"id":"0190","robotId":"r1","seq":2,"kind":"teleport",)"
+      R"("cause":"teleport","state":"resolved",)"
+      R"("openedAt":"1970-01-01T00:00:10.000000000Z",)"
+      R"("resolvedAt":"1970-01-01T00:00:20.000000000Z",)"
+      R"("beforeTime":"1970-01-01T00:00:01.000000000Z",)"
+      R"("afterTime":"1970-01-01T00:00:02.000000000Z",)"
+      R"("scanTime":"1970-01-01T00:00:03.000000000Z","detector":"qs2ddtw","score":500.0,)"
+      R"("threshold":180.0,"explanation":"Nothing the lidar sees matches what it saw before.",)"
+      R"("configVersion":4})");
 }
 
 TEST(HistoryJson, LeavesOutWhenAnOpenIncidentWasResolved) {

@@ -44,6 +44,7 @@ TEST(AlertMessage, TellsTheFullState) {
                          {"seq", 1},
                          {"type", "opened"},
                          {"kind", "teleport"},
+                         {"cause", "teleport"},
                          {"robotId", "r1"},
                          {"state", "open"},
                          {"severity", "critical"},
@@ -52,6 +53,7 @@ TEST(AlertMessage, TellsTheFullState) {
                          {"detector", "qs2ddtw"},
                          {"score", 12.5},
                          {"threshold", 3.0},
+                         {"explanation", "Nothing the lidar sees matches what it saw before."},
                          {"configVersion", 4},
                          {"links", {{"incident", "/api/v1/incidents/i-1"}}}};
   for (const auto& [key, value] : expected.items()) {
