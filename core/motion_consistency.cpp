@@ -13,6 +13,7 @@ constexpr float kShareFloor = 0.1F;      // added to shares, metres and radians 
 constexpr float kGoodQuality = 0.75F;    // an alignment that needs no second opinion
 constexpr float kSeedPenalty = 0.02F;    // of quality, for seeds the wheels do not support
 constexpr float kAlignedBonus = 0.005F;  // an alignment as good as the expectation is preferred
+constexpr float kFollowed = 0.05F;       // worse in quality than the best alignment, at most
 constexpr double kSeedTurn_rad = 0.03;   // a turn of the range profile that is worth a seed
 constexpr double kTurnReach_rad = 0.8;   // of the range profile, if the field of view is partial
 constexpr double kSearchStep_rad = 0.25;
@@ -40,9 +41,10 @@ class BestFit {
   BestFit(const Contour& before, const Contour& now) : before_(before), now_(now) {}
 
   Agreement at(const Pose& motion) { return keep(motion, 0, -kAlignedBonus); }
-  void from(const Pose& seed, const AlignmentConfig& config, float penalty) {
+  Laid from(const Pose& seed, const AlignmentConfig& config, float penalty) {
     const Alignment found = aligned(before_, now_, seed, config);
-    keep(found.motion, found.matches, -penalty);
+    const Agreement fit = keep(found.motion, found.matches, -penalty);
+    return {found.motion, fit, fit.quality(), found.matches};
   }
   [[nodiscard]] const Laid& best() const { return best_; }
 
@@ -73,7 +75,8 @@ void search(const Claim& claim, BestFit& fit) {
 }
 
 /// The best alignment from as many seeds as it takes, and how the scans agree where expected.
-Laid laid(const Contour& before, const Contour& now, const Claim& claim, Agreement& at_expected) {
+Laid laid(const Contour& before, const Contour& now, const Claim& claim, Agreement& at_expected,
+          Laid& followed) {
   AlignmentConfig first;
   first.iterations = 8;
   first.gate_m = 0.3F;
@@ -81,7 +84,7 @@ Laid laid(const Contour& before, const Contour& now, const Claim& claim, Agreeme
   if (!claim.by_wheels) wide.reach_m = first.reach_m = 1.2;
   BestFit fit(before, now);
   at_expected = fit.at(claim.expected);
-  fit.from(claim.expected, first, 0.0F);
+  followed = fit.from(claim.expected, first, 0.0F);
   if (fit.best().merit >= kGoodQuality) return fit.best();
   fit.from({0.0, 0.0, claim.expected.theta_rad}, wide, kSeedPenalty);
   const double reach_rad = before.whole_turn ? std::numbers::pi : kTurnReach_rad;
@@ -128,6 +131,8 @@ Features features_of(const Comparison& pair, const Pose& expected, const Agreeme
           log_share(pair.at_seen.violating_elsewhere),
           log_share(1.0F - at_expected.consistent),
           log_share(1.0F - at_expected.consistent_elsewhere),
+          log_share(1.0F - pair.at_seen.consistent),
+          log_share(1.0F - pair.at_seen.consistent_elsewhere),
           static_cast<float>(std::log1p(shift)),
           static_cast<float>(std::log1p(turn)),
           log_share(way),
@@ -140,8 +145,10 @@ Comparison compare(const Contour& before, const Contour& now, const Claim& claim
   Comparison pair;
   pair.claim = claim;
   Agreement at_expected;
-  const Laid best = laid(before, now, claim, at_expected);
+  Laid followed;
+  const Laid best = laid(before, now, claim, at_expected, followed);
   pair.seen = best.motion;
+  pair.followed = followed.merit > best.merit - kFollowed ? followed.motion : best.motion;
   pair.matches = best.matches;
   pair.at_seen = best.agreement;
   pair.judged = best.agreement.sectors >= kSectorsMin;
@@ -162,6 +169,7 @@ Clues confirmed(const Clues& before_now, const Clues& before_next, const Clues& 
     return std::max(0.0F, std::min(a, b) - kAfter * after);
   };
   return {both(before_now.misfit, before_next.misfit, now_next.misfit),
+          both(before_now.unmatched, before_next.unmatched, now_next.unmatched),
           both(before_now.elsewhere, before_next.elsewhere, now_next.elsewhere),
           both(before_now.shift, before_next.shift, std::max(now_next.shift, earlier.shift)),
           both(before_now.turn, before_next.turn, std::max(now_next.turn, earlier.turn))};
@@ -170,7 +178,8 @@ Clues confirmed(const Clues& before_now, const Clues& before_next, const Clues& 
 Habits::Habits()
     : tails_{Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
              Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
-             Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F)} {}
+             Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
+             Tail(-2.5F, 5.0F, 2000.0F)} {}
 
 void Habits::learn(const Features& features) {
   for (std::size_t i = 0; i < kFeatures; ++i) tails_[i].learn(features[i]);
@@ -195,6 +204,8 @@ Clues Habits::clues(const Features& features) const {
   using enum Feature;
   return {std::min(unusual(violating, features),
                    kElsewhereFactor * unusual(violating_elsewhere, features)),
+          std::min(unusual(unmatched, features),
+                   kElsewhereFactor * unusual(unmatched_elsewhere, features)),
           std::min(unusual(inconsistent, features),
                    kElsewhereFactor * unusual(inconsistent_elsewhere, features)),
           unusual(shift, features), unusual(turn, features)};

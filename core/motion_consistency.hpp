@@ -30,12 +30,14 @@ enum class Feature : std::uint8_t {
   violating_elsewhere,     ///< the same without the worst quarter of the sectors
   inconsistent,            ///< share of points without a counterpart, at the expected motion
   inconsistent_elsewhere,  ///< the same without the worst quarter of the sectors
+  unmatched,               ///< share of points without a counterpart, at the best alignment
+  unmatched_elsewhere,     ///< the same without the worst quarter of the sectors
   shift,                   ///< best alignment against expected motion: metres over their tolerance
   turn,                    ///< the same for the angle
   way,                     ///< metres the wheels tell
   turning,                 ///< radians the wheels tell
 };
-inline constexpr std::size_t kFeatures = 8;
+inline constexpr std::size_t kFeatures = 10;
 using Features = std::array<float, kFeatures>;
 
 /// Two scans compared.
@@ -43,6 +45,7 @@ struct Comparison {
   bool judged = false;  ///< enough sectors of both fields of view overlap
   Claim claim;
   Pose seen;        ///< T_before_now of the best alignment
+  Pose followed;    ///< of the alignment from the expected motion, if that is about as good
   int matches = 0;  ///< points that the alignment rests on
   Agreement at_seen;
   Features features{};
@@ -58,14 +61,15 @@ struct Comparison {
 /// this robot's own mean excess, so that about exp(-x) of its natural pairs exceed x.
 struct Clues {
   float misfit = 0.0F;     ///< the scans do not fit together however they are laid
-  float elsewhere = 0.0F;  ///< they do not fit where the wheels put them
+  float unmatched = 0.0F;  ///< much of each has no counterpart in the other, however they are laid
+  float elsewhere = 0.0F;  ///< the same where the wheels put them
   float shift = 0.0F;      ///< they fit, but some metres off
   float turn = 0.0F;       ///< they fit, but turned
 
   /// How strongly in all, with `allowance` for a robot that moved more than it uses to: then more
   /// comes into sight and goes, and odometry errs a little more.
   [[nodiscard]] float sum(float allowance = 0.0F) const {
-    return std::max(0.0F, misfit + elsewhere - allowance) +
+    return std::max(0.0F, misfit + std::max(unmatched, elsewhere) - allowance) +
            std::max(0.0F, shift + turn - kMoveAllowance * allowance);
   }
   static constexpr float kMoveAllowance = 0.5F;

@@ -22,7 +22,8 @@ constexpr float kUnrestRate = 0.1F;
 constexpr int kLearnTroubledEvery = 10;
 constexpr float kUnrestMax = 0.35F;
 constexpr float kBlindViolation = 0.35F;
-constexpr float kFit = 0.5F;  // quality of an alignment that says: these are the same walls
+constexpr float kGlitch = 0.6F;  // of what its own pairs show: the pair around a glitch fits
+constexpr float kFit = 0.5F;     // quality of an alignment that says: these are the same walls
 
 Pose scaled(const Pose& motion, double factor) {
   return {motion.x_m * factor, motion.y_m * factor, wrapped(motion.theta_rad * factor)};
@@ -38,9 +39,12 @@ Wheels joined(const Wheels& first, const Wheels& second) {
           first.before_scans, first.by_odometry && second.by_odometry};
 }
 
-/// Whether the latest scan fits the one before the last, but not the last, which was a glitch.
-bool glitched(const Clues& around, const Clues& latest, float limit) {
-  return latest.sum() > 0.5F * limit && around.sum() < 0.6F * latest.sum();
+/// Whether the scans on both sides of the last fit each other better than it, which was a glitch.
+bool glitched(const Clues& into, const Clues& out_of, const Clues& around, float limit) {
+  const auto unlike = [](const Clues& clues) { return clues.misfit + clues.unmatched; };
+  return std::min(into.sum(), out_of.sum()) > 0.5F * limit &&
+         (around.sum() < kGlitch * std::min(into.sum(), out_of.sum()) ||
+          unlike(around) < kGlitch * std::min(unlike(into), unlike(out_of)));
 }
 
 Cause cause_of(const Comparison& pair, const Clues& clues) {
@@ -69,7 +73,7 @@ MotionVerdict MotionDetector::observe(const Scan& scan, bool learning) {
     verdict.jump->alarm = verdict.threshold && verdict.jump->score > limit;
     if (learning && !verdict.jump->alarm && may_learn()) learn(*pending_, *verdict.jump);
     skipped_ = !skipped_ && around && around->comparison.judged &&
-               glitched(around->clues, latest.clues, limit);
+               glitched(pending_->clues, latest.clues, around->clues, limit);
     if (skipped_) {  // the scan in between was a glitch: go on from the one before it
       latest = *around;
       std::swap(views_[(newest_ + 1) % 3], views_[(newest_ + 2) % 3]);
@@ -79,8 +83,9 @@ MotionVerdict MotionDetector::observe(const Scan& scan, bool learning) {
   verdict.suspicion = latest.suspicion;
   if (verdict.jump && verdict.jump->alarm) carry_.reset();
   const bool quiet = !carry_.alarmed();
-  if (latest.comparison.judged && latest.comparison.at_seen.quality() > kFit)
-    carry_.observe(latest.comparison.claim.expected, latest.comparison.seen, learning);
+  const bool follows = latest.comparison.judged && latest.comparison.at_seen.quality() > kFit;
+  if (follows && latest.comparison.claim.by_wheels)
+    carry_.observe(latest.comparison.claim.expected, latest.comparison.followed, learning);
   verdict.carry = carry_.cusum();
   verdict.carried = quiet && carry_.alarmed();
   verdict.trouble = trouble(latest, limit);
@@ -169,7 +174,7 @@ MotionDetector::Pair MotionDetector::paired(const Contour& before, const Contour
   pair.allowance = habits_.allowance(pair.comparison.features);
   pair.allowance += kGapAllowance * static_cast<float>(std::log(std::min(wheels.scans, kGapMax)));
   const bool lost = !pair.comparison.claim.by_wheels && wheels.scans >= 2.5;
-  if (lost) pair.clues.elsewhere = pair.clues.shift = pair.clues.turn = 0.0F;
+  if (lost) pair.clues.unmatched = pair.clues.elsewhere = pair.clues.shift = pair.clues.turn = 0.0F;
   pair.suspicion = pair.clues.sum(pair.allowance);
   return pair;
 }
@@ -190,9 +195,7 @@ MotionJump MotionDetector::confirm(const Pair& latest, const std::optional<Pair>
   const Pair& suspect = *pending_;
   MotionJump jump{suspect.clues, suspect.allowance, suspect.suspicion, false, Cause::teleport};
   if (!around) return jump;
-  const bool by_wheels = latest.comparison.claim.by_wheels;
-  const Clues after =
-      habits_.clues(by_wheels ? latest.comparison.features : latest.comparison.lenient);
+  const Clues after = habits_.clues(latest.comparison.lenient);
   jump.clues = confirmed(suspect.clues, around->clues, after, earlier_);
   jump.score = jump.clues.sum(jump.allowance);
   jump.cause = cause_of(around->comparison, jump.clues);

@@ -31,7 +31,7 @@ std::string alert_message(const core::Alert& alert) {
                {"seq", incident.seq},
                {"type", core::name(alert.type)},
                {"kind", core::name(incident.kind)},
-              {"cause", core::name(incident.cause)},
+               {"cause", core::name(incident.cause)},
                {"robotId", incident.robot},
                {"state", core::name(incident.state)},
                {"severity", severity(incident)},

@@ -79,7 +79,7 @@ TEST(Habits, AllowsForMoreMotionThanUsual) {
 }
 
 TEST(Confirmed, WantsBothPairsAndTheSilenceOfTheNext) {
-  const Clues strong{10.0F, 8.0F, 0.0F, 0.0F};
+  const Clues strong{.misfit = 10.0F, .elsewhere = 8.0F};
   const Clues nothing;
   EXPECT_FLOAT_EQ(confirmed(strong, strong, nothing, nothing).sum(), 18.0F);
   EXPECT_FLOAT_EQ(confirmed(strong, nothing, strong, nothing).sum(), 0.0F);  // a glitch
@@ -87,13 +87,13 @@ TEST(Confirmed, WantsBothPairsAndTheSilenceOfTheNext) {
 }
 
 TEST(Confirmed, WantsNoSuchShiftJustBefore) {
-  const Clues off{0.0F, 0.0F, 6.0F, 0.0F};
+  const Clues off{.shift = 6.0F};
   EXPECT_FLOAT_EQ(confirmed(off, off, {}, off).sum(), 0.0F);  // odometry that keeps being wrong
 }
 
 TEST(Confirmed, HoldsOneKindOfClueAgainstItselfOnly) {
-  const Clues jump{10.0F, 8.0F, 0.0F, 0.0F};
-  const Clues wobble{0.0F, 0.0F, 0.0F, 9.0F};
+  const Clues jump{.misfit = 10.0F, .unmatched = 8.0F};
+  const Clues wobble{.turn = 9.0F};
   EXPECT_FLOAT_EQ(confirmed(jump, jump, wobble, {}).sum(), 18.0F);
 }
 

@@ -192,8 +192,9 @@ TEST_F(WatchTest, InterpolatesOdometryToTheScansTime) {
   tell(100.5, 1.0);
   drive(2.0, 1);
   drive(6.0, 2);
-  ASSERT_EQ(heard_.evidence().size(), 1U);
-  const auto& scans = *heard_.evidence()[0];
+  const auto evidence = heard_.evidence();
+  ASSERT_EQ(evidence.size(), 1U);
+  const auto& scans = *evidence[0];
   ASSERT_TRUE(scans.before.odometry);
   EXPECT_NEAR(scans.before.odometry->x_m, 0.5, 1e-3);  // at 100.4 s
   EXPECT_NEAR(scans.after.odometry->x_m, 1.5, 1e-3);   // at 100.6 s, going on
