@@ -242,6 +242,17 @@ TEST_F(SymmetricPlaces, AShiftAlongAFeaturelessCorridorIsInvisible) {
   EXPECT_EQ(alarms_, 0);
 }
 
+TEST_F(SymmetricPlaces, ATeleportBetweenRoomsThatLookTheSameIsInvisible) {
+  walls_ = furnished_room();
+  for (const Line& wall : furnished_room())
+    walls_.push_back({wall.x0 + 20.0, wall.y0, wall.x1 + 20.0, wall.y1});
+  at_ = {5.9, 2.6, 1.5708};
+  drive(200);
+  at_.x_m += 20.0;
+  drive(5);
+  EXPECT_EQ(alarms_, 0);
+}
+
 TEST(Names, SayWhatHappened) {
   EXPECT_EQ(name(Cause::slip), "slip");
   EXPECT_EQ(name(Trouble::crowd), "crowd");
