@@ -2,6 +2,7 @@
 // Incidents from history, newest first, page by page.
 #include "api/incidents.hpp"
 
+#include "adapters/codecs/command_json.hpp"
 #include "adapters/codecs/history_json.hpp"
 #include "api/problem.hpp"
 #include "core/bad_input.hpp"
@@ -29,6 +30,9 @@ IncidentQuery query(const Call& call) {
   }
   if (const auto kind = parameter(call, "kind")) {
     query.kind = core::incident_kind(*kind, "kind");
+  }
+  if (const auto label = parameter(call, "label")) {
+    query.label = core::incident_label(*label, "label");
   }
   query.opened_at = time_range(call);
   if (const auto cursor = parameter(call, "cursor")) {
@@ -59,6 +63,10 @@ std::optional<core::Incident> visible_incident(const Call& call) {
   return incident && call.caller.may_see(incident->robot) ? incident : std::nullopt;
 }
 
+Response no_such_incident(const Call& call) {
+  return problem(404, "no incident has the id " + call.id);
+}
+
 }  // namespace
 
 Response get_incidents(const Call& call) {
@@ -82,7 +90,7 @@ Response get_incidents(const Call& call) {
 
 Response get_incident(const Call& call) {
   const auto incident = visible_incident(call);
-  return incident ? ok(json(*incident)) : problem(404, "no incident has the id " + call.id);
+  return incident ? ok(json(*incident)) : no_such_incident(call);
 }
 
 Response get_evidence(const Call& call) {
@@ -90,6 +98,24 @@ Response get_evidence(const Call& call) {
       visible_incident(call) ? call.ports.history.evidence(call.id) : std::nullopt;
   return evidence ? ok_text(evidence_json(*evidence))
                   : problem(404, "no evidence is kept of an incident " + call.id);
+}
+
+Response post_incident(const Call& call) {
+  auto command = adapters::codecs::incident_command(
+      call.target.segments.back(),
+      adapters::codecs::parsed(call.request.body.empty() ? "{}" : call.request.body, "body"));
+  command.author = call.caller.name;
+  const auto incident = visible_incident(call);
+  if (!incident) {
+    return no_such_incident(call);
+  }
+  try {
+    const auto changed = call.ports.fleet.change_incident(call.id, command);
+    return changed ? ok(json(*changed))
+                   : problem(409, "the incident is " + std::string(core::name(incident->state)));
+  } catch (const Unavailable& busy) {
+    return problem(503, busy.what());
+  }
 }
 
 }  // namespace kidnapwatch::api

@@ -10,4 +10,7 @@ namespace kidnapwatch::api {
 [[nodiscard]] Response get_incident(const Call& call);
 [[nodiscard]] Response get_evidence(const Call& call);
 
+/// The last segment of the path is the action.
+[[nodiscard]] Response post_incident(const Call& call);
+
 }  // namespace kidnapwatch::api

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/incident.hpp"
+#include "core/incident_command.hpp"
 #include "core/status.hpp"
 
 namespace kidnapwatch::api {
@@ -16,6 +18,11 @@ namespace kidnapwatch::api {
 /// Thrown by put_config where the configuration is not the version that the caller saw.
 struct VersionConflict {
   std::int64_t current = 0;
+};
+
+/// Thrown where the service is too busy to say more than that.
+struct Unavailable : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// The running service. Every function may be called from any thread and answers from memory.
@@ -32,6 +39,10 @@ class Fleet {
   virtual core::ConfigVersion put_config(const core::DetectionConfig& config,
                                          std::optional<std::int64_t> seen_version,
                                          const std::string& author) = 0;
+  /// The incident after a command that passed check(), as it is stored; nothing where its state
+  /// does not allow it, or there is none. Throws Unavailable.
+  virtual std::optional<core::Incident> change_incident(const std::string& id,
+                                                        const core::IncidentCommand& command) = 0;
 };
 
 struct TimeRange {
@@ -44,6 +55,7 @@ struct IncidentQuery {
   std::optional<std::string> robot;
   std::optional<core::IncidentState> state;
   std::optional<core::IncidentKind> kind;
+  std::optional<core::IncidentLabel> label;
   TimeRange opened_at;
   std::optional<std::string> before_id;  ///< go on after the page that ended with this incident
   std::size_t limit = 100;

@@ -15,6 +15,8 @@ namespace kidnapwatch::core {
 
 enum class IncidentKind : std::uint8_t { teleport, carry };
 enum class IncidentState : std::uint8_t { open, acknowledged, resolved };
+/// What somebody says that it was.
+enum class IncidentLabel : std::uint8_t { kidnapping, false_alarm, test };
 /// What an alert tells of an incident.
 enum class AlertType : std::uint8_t {
   opened,
@@ -27,10 +29,12 @@ enum class AlertType : std::uint8_t {
 
 [[nodiscard]] std::string_view name(IncidentKind kind);
 [[nodiscard]] std::string_view name(IncidentState state);
+[[nodiscard]] std::string_view name(IncidentLabel label);
 [[nodiscard]] std::string_view name(AlertType type);
 /// The inverse of name(). Throws BadInput naming `field` for any other text.
 [[nodiscard]] IncidentKind incident_kind(std::string_view text, std::string_view field);
 [[nodiscard]] IncidentState incident_state(std::string_view text, std::string_view field);
+[[nodiscard]] IncidentLabel incident_label(std::string_view text, std::string_view field);
 
 struct Incident {
   std::string id;  ///< UUIDv7
@@ -48,6 +52,11 @@ struct Incident {
   double score = 0.0;                ///< of the jump
   double threshold = 0.0;
   std::int64_t config_version = 0;
+  std::string acknowledged_by;         ///< while acknowledged
+  std::string resolved_by;             ///< empty: by rule
+  std::optional<Stamp> shelved_until;  ///< nobody is to be called before
+  std::optional<IncidentLabel> label;
+  std::string comment;
 
   friend bool operator==(const Incident&, const Incident&) = default;
 };
@@ -58,6 +67,7 @@ struct Alert {
   AlertType type = AlertType::opened;
   Stamp timestamp;  ///< by the service's clock
   Incident incident;
+  std::string author = "kidnapwatch";  ///< of the change
 };
 
 /// What an incident was concluded from.

@@ -22,9 +22,11 @@ void Announcements::announce_alert(const core::Alert& alert,
                                        .payload = codecs::alert_message(alert)};
   // Handed over before it is sent, so that the confirmation comes after it; waits for nothing.
   writer_.put_incident({.incident = alert.incident,
+                        .type = alert.type,
                         .evidence = std::move(evidence),
                         .alert = message,
-                        .changed_at = alert.timestamp});
+                        .changed_at = alert.timestamp,
+                        .author = alert.author});
   outbox_.send(message);
 }
 

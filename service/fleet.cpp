@@ -38,6 +38,18 @@ void Fleet::receive(const std::string& robot, Message message) {
   }
 }
 
+bool Fleet::change_incident(Order order) {
+  const auto found = member(order.stored.robot);
+  if (!found) {
+    return false;
+  }
+  Message message{.payload = {}, .content_type = {}, .arrival = outside_.now()};
+  message.kind = MessageKind::order;
+  message.order = std::make_shared<const Order>(std::move(order));
+  found->lane->push(*found->watch, std::move(message));
+  return true;
+}
+
 bool Fleet::is_known(const std::string& robot) const {
   const std::lock_guard lock(mutex_);
   return members_.contains(robot);

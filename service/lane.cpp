@@ -62,7 +62,8 @@ void Lane::push(Watch& watch, Message message) {
   {
     const std::lock_guard lock(mutex_);
     Inbox& inbox = inboxes_.at(&watch);
-    lost_scan = is_allowed(inbox) ? put(inbox, std::move(message)) : is_scan;
+    const bool is_order = message.kind == MessageKind::order;
+    lost_scan = is_order || is_allowed(inbox) ? put(inbox, std::move(message)) : is_scan;
   }
   filled_.notify_one();
   if (lost_scan) {

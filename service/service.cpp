@@ -3,8 +3,8 @@
 #include "service/service.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -22,7 +22,9 @@
 #include "service/health.hpp"
 #include "service/ids.hpp"
 #include "service/outbox.hpp"
+#include "service/refusal_log.hpp"
 #include "service/rounds.hpp"
+#include "service/stored_history.hpp"
 #include "service/token_file.hpp"
 #include "storage/archive.hpp"
 #include "storage/writer.hpp"
@@ -36,6 +38,7 @@ using core::Outcome;
 
 constexpr std::chrono::seconds kRoundEvery{1};
 constexpr std::uint64_t kRoundsBetweenRepeats = 5;
+constexpr std::chrono::seconds kPatience{5};  // of a request, with a lane and with the store
 
 core::Stamp now() {
   return std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
@@ -56,52 +59,6 @@ std::uint64_t random_seed() {
   std::random_device device;
   return (std::uint64_t{device()} << 32U) | device();
 }
-
-/// Logs the 1st, 2nd, 4th, 8th, ... refusal of each robot: a broken robot must not fill the disk.
-class RefusalLog {
- public:
-  void operator()(const std::string& robot, const core::BadInput& why) {
-    const std::lock_guard lock(mutex_);
-    const std::uint64_t count = ++counts_[robot];
-    if (std::has_single_bit(count)) {
-      spdlog::warn("robot {}: refused scan {}: {}", robot, count, why.what());
-    }
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::uint64_t> counts_;
-};
-
-/// The stored history, as REST asks for it.
-class StoredHistory final : public api::History {
- public:
-  explicit StoredHistory(const storage::Archive& archive) : archive_(archive) {}
-
-  [[nodiscard]] std::vector<core::Score> scores(const std::string& robot, api::TimeRange stamps,
-                                                std::size_t limit) const override {
-    return archive_.scores(robot, stamps.from, stamps.to, limit);
-  }
-  [[nodiscard]] std::vector<core::Incident> incidents(
-      const api::IncidentQuery& query) const override {
-    return archive_.incidents({.robot = query.robot,
-                               .state = query.state,
-                               .kind = query.kind,
-                               .opened_from = query.opened_at.from,
-                               .opened_to = query.opened_at.to,
-                               .before_id = query.before_id,
-                               .limit = query.limit});
-  }
-  [[nodiscard]] std::optional<core::Incident> incident(const std::string& id) const override {
-    return archive_.incident(id);
-  }
-  [[nodiscard]] std::optional<core::Evidence> evidence(const std::string& id) const override {
-    return archive_.evidence(id);
-  }
-
- private:
-  const storage::Archive& archive_;
-};
 
 /// The configuration that was set last; if none was, the one of the settings.
 core::ConfigVersion starting_config(const storage::Archive& archive, const Settings& settings) {
@@ -146,6 +103,8 @@ class Service::Parts final : public api::Fleet {
                                  const std::string& author) override {
     return fleet_.put_config(config, seen_version, author);
   }
+  std::optional<core::Incident> change_incident(const std::string& id,
+                                                const core::IncidentCommand& command) override;
 
  private:
   [[nodiscard]] mqtt::LinkConfig link_config() const;
@@ -162,6 +121,7 @@ class Service::Parts final : public api::Fleet {
   const Settings settings_;
   const core::Stamp started_ = now();
   RefusalLog log_refusal_;
+  std::mutex change_mutex_;  // one change of an incident at a time
   Ids ids_{random_seed()};
   storage::Writer writer_;
   const storage::Archive archive_;
@@ -267,6 +227,34 @@ api::Guard::Lookup Service::Parts::token_lookup() const {
       throw std::runtime_error(unusable.what());
     }
   };
+}
+
+/// One at a time, and durable before the next: each sees what the one before it stored.
+std::optional<core::Incident> Service::Parts::change_incident(
+    const std::string& id, const core::IncidentCommand& command) {
+  const std::lock_guard one_at_a_time(change_mutex_);
+  auto stored = archive_.incident(id);
+  if (!stored) return std::nullopt;
+  const auto done = std::make_shared<std::promise<std::optional<core::Incident>>>();
+  auto changed = done->get_future();
+  const bool is_taken = fleet_.change_incident(
+      {.stored = std::move(*stored), .command = command, .on_done = [done](const auto& incident) {
+         done->set_value(incident);
+       }});
+  if (!is_taken || changed.wait_for(kPatience) != std::future_status::ready) {
+    throw api::Unavailable("the robot's lane is too busy");
+  }
+  auto result = changed.get();
+  auto stored_now = writer_.flush();
+  if (stored_now.wait_for(kPatience) != std::future_status::ready) {
+    throw api::Unavailable("the store is too slow: the change is made, but not stored yet");
+  }
+  try {
+    stored_now.get();
+  } catch (const storage::StorageError& error) {
+    throw api::Unavailable(std::string("the change is made, but not stored yet: ") + error.what());
+  }
+  return result;
 }
 
 void Service::Parts::resume_robots() {

@@ -25,7 +25,8 @@ core::AlertType alert_type(core::EpisodeChange change) {
 
 /// The incident that a confirmed jump is, or becomes.
 void describe(core::Incident& incident, const core::Jump& jump) {
-  incident.state = core::IncidentState::open;
+  incident.state = core::IncidentState::open;  // whoever looked after it did not know of this
+  incident.acknowledged_by.clear();
   incident.before_stamp = jump.scans.before.stamp;
   incident.after_stamp = jump.scans.after.stamp;
   incident.kind =
@@ -66,6 +67,10 @@ void Watch::take(const Message& message, Bench& bench) {
     take_particles(message, bench);
     return;
   }
+  if (message.kind == MessageKind::order) {
+    carry_out(*message.order);
+    return;
+  }
   const core::Stamp arrival = message.arrival;
   const core::RobotState before = status().state;
   count(outcome_of(message, bench));
@@ -104,6 +109,44 @@ void Watch::take_particles(const Message& message, Bench& bench) {
   } catch (const core::BadInput& bad) {
     around_.log_refusal(id_, bad);
   }
+}
+
+void Watch::carry_out(const Order& order) {
+  const core::Stamp now = around_.now();
+  const bool is_latest = order.stored.id == incident_.id;
+  const core::Incident& before = is_latest ? incident_ : order.stored;
+  auto result = core::changed(before, order.command, now);
+  if (result && result->incident.seq != before.seq) {
+    around_.announcer.announce_alert({.event_id = around_.new_id(now),
+                                      .type = result->type,
+                                      .timestamp = now,
+                                      .incident = result->incident,
+                                      .author = order.command.author},
+                                     std::nullopt);
+  }
+  const bool ends = result && is_latest && result->incident.state == core::IncidentState::resolved;
+  if (result && is_latest) {
+    incident_ = result->incident;
+  }
+  if (ends && std::exchange(incident_open_, false)) {
+    session_.resolve();
+    refresh_status(status().last_arrival);
+    around_.announcer.announce_state(status(), now);
+  }
+  order.on_done(result ? std::optional(std::move(result->incident)) : std::nullopt);
+}
+
+void Watch::end_shelving(core::Stamp now) {
+  if (!incident_open_ || !incident_.shelved_until || *incident_.shelved_until > now) {
+    return;
+  }
+  incident_.shelved_until.reset();
+  ++incident_.seq;
+  around_.announcer.announce_alert({.event_id = around_.new_id(now),
+                                    .type = core::AlertType::updated,
+                                    .timestamp = now,
+                                    .incident = incident_},
+                                   std::nullopt);
 }
 
 Outcome Watch::outcome_of(const Message& message, Bench& bench) {
@@ -151,6 +194,7 @@ void Watch::change_incident(core::EpisodeChange change, core::Stamp now) {
   if (change == core::EpisodeChange::resolved) {
     incident_.state = core::IncidentState::resolved;
     incident_.resolved_at = now;
+    incident_.shelved_until.reset();
   } else {
     describe(incident_, *session_.jump());
     evidence = session_.jump()->scans;
@@ -163,6 +207,7 @@ void Watch::change_incident(core::EpisodeChange change, core::Stamp now) {
 
 void Watch::tick() {
   const core::Stamp now = around_.now();
+  end_shelving(now);
   const core::RobotState before = status().state;
   {
     const std::lock_guard lock(mutex_);

@@ -15,13 +15,22 @@
 #include "adapters/codecs/particles_payload.hpp"
 #include "adapters/codecs/scan_payload.hpp"
 #include "core/incident.hpp"
+#include "core/incident_command.hpp"
 #include "core/odometry_track.hpp"
 #include "core/status.hpp"
 #include "service/other_detectors.hpp"
 
 namespace kidnapwatch::service {
 
-enum class MessageKind : std::uint8_t { scan, odometry, particles };
+/// What somebody wants done to an incident of a robot; done on the robot's lane.
+struct Order {
+  core::Incident stored;  ///< unless the watch knows it better
+  core::IncidentCommand command;
+  /// Told the incident after it; nothing where its state did not allow it.
+  std::function<void(const std::optional<core::Incident>&)> on_done;
+};
+
+enum class MessageKind : std::uint8_t { scan, odometry, particles, order };
 
 /// A message from a robot, as it came from the broker.
 struct Message {
@@ -29,6 +38,7 @@ struct Message {
   std::string content_type;                    ///< MQTT 5; empty if the publisher told none
   core::Stamp arrival;
   MessageKind kind = MessageKind::scan;
+  std::shared_ptr<const Order> order = {};  ///< of that kind
 };
 
 /// What a thread needs to take scans, whatever robot they are of. It holds no state of a robot.
@@ -95,6 +105,8 @@ class Watch {
 
  private:
   void take_odometry(const Message& message, Bench& bench);
+  void carry_out(const Order& order);
+  void end_shelving(core::Stamp now);
   [[nodiscard]] core::Outcome outcome_of(const Message& message, Bench& bench);
   void take_particles(const Message& message, Bench& bench);
   void conclude(core::Verdict& verdict, core::Stamp arrival);

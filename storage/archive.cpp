@@ -110,10 +110,11 @@ std::vector<core::Incident> Archive::incidents(const IncidentFilter& filter) con
   if (filter.robot) where += " AND robot = ?1";
   if (filter.state) where += " AND state = ?2";
   if (filter.kind) where += " AND kind = ?3";
+  if (filter.label) where += " AND label = ?7";
   if (filter.before_id) where += " AND id < ?6";
-  Statement query(lease, select(kIncidentColumns, where + " ORDER BY id DESC LIMIT ?7"));
+  Statement query(lease, select(kIncidentColumns, where + " ORDER BY id DESC LIMIT ?8"));
   query.bind(filter.robot, text(filter.state), text(filter.kind), filter.opened_from,
-             filter.opened_to, filter.before_id, filter.limit);
+             filter.opened_to, filter.before_id, text(filter.label), filter.limit);
   return all_incidents(query);
 }
 

@@ -9,11 +9,13 @@ namespace {
 
 // A change that was overtaken by a later one of the same incident changes nothing.
 constexpr std::string_view kPutIncident = R"(
-INSERT INTO incident VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15)
+INSERT INTO incident VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15,
+  ?16, ?17, ?18, ?19, ?20)
 ON CONFLICT (id) DO UPDATE SET
   robot = ?2, seq = ?3, kind = ?4, state = ?5, opened_at = ?6, resolved_at = ?7, scan_stamp = ?8,
   before_stamp = ?9, after_stamp = ?10, detector = ?11, score = ?12, threshold = ?13,
-  config_version = ?14, cause = ?15
+  config_version = ?14, cause = ?15, acknowledged_by = ?16, resolved_by = ?17,
+  shelved_until = ?18, label = ?19, comment = ?20
 WHERE ?3 >= seq)";
 
 // Of the incident of message ?1: the latest alert stays until the incident is resolved.
@@ -29,7 +31,7 @@ AuditEntry audit_entry(const IncidentChange& change) {
   const auto& incident = change.incident;
   return {.at = change.changed_at,
           .actor = change.author,
-          .action = "incident." + std::string(core::name(incident.state)),
+          .action = "incident." + std::string(core::name(change.type)),
           .subject = incident.id,
           .detail = "robot " + incident.robot + ", seq " + std::to_string(incident.seq)};
 }

@@ -27,6 +27,7 @@ struct OutboxMessage {
 /// A new or changed incident, and all that is stored with it in one transaction.
 struct IncidentChange {
   core::Incident incident;
+  core::AlertType type = core::AlertType::opened;  ///< for the audit trail
   /// Kept from the first change that has it.
   std::optional<core::ScanPair> evidence = std::nullopt;
   std::optional<OutboxMessage> alert = std::nullopt;
@@ -80,6 +81,7 @@ struct IncidentFilter {
   std::optional<std::string> robot = std::nullopt;
   std::optional<core::IncidentState> state = std::nullopt;
   std::optional<core::IncidentKind> kind = std::nullopt;
+  std::optional<core::IncidentLabel> label = std::nullopt;
   core::Stamp opened_from = core::Stamp::min();
   core::Stamp opened_to = core::Stamp::max();           ///< exclusive
   std::optional<std::string> before_id = std::nullopt;  ///< only older ones than this

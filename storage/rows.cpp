@@ -89,15 +89,22 @@ core::Incident incident_from(const Statement& row) {
   incident.threshold = row.real(12);
   incident.config_version = row.integer(13);
   incident.cause = core::cause(row.text(14), "cause");
+  incident.acknowledged_by = row.text(15);
+  incident.resolved_by = row.text(16);
+  if (!row.is_null(17)) incident.shelved_until = row.stamp(17);
+  if (!row.is_null(18)) incident.label = core::incident_label(row.text(18), "label");
+  incident.comment = row.text(19);
   return incident;
 }
 
 void bind_incident(Statement& upsert, const core::Incident& incident) {
+  const auto label = incident.label ? std::optional(core::name(*incident.label)) : std::nullopt;
   upsert.bind(incident.id, incident.robot, incident.seq, core::name(incident.kind),
               core::name(incident.state), incident.opened_at, incident.resolved_at,
               incident.scan_stamp, incident.before_stamp, incident.after_stamp, incident.detector,
               incident.score, incident.threshold, incident.config_version,
-              core::name(incident.cause));
+              core::name(incident.cause), incident.acknowledged_by, incident.resolved_by,
+              incident.shelved_until, label, incident.comment);
 }
 
 core::Scan scan_from(const Statement& row) {

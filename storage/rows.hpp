@@ -27,7 +27,9 @@ inline constexpr std::string_view kScoreColumns =
 /// In the order that incident_from reads them.
 inline constexpr std::string_view kIncidentColumns =
     "id, robot, seq, kind, state, opened_at, resolved_at, scan_stamp, before_stamp, after_stamp, "
-    "detector, score, threshold, config_version, cause";
+    "detector, score, threshold, config_version, cause, acknowledged_by, resolved_by, "
+    "shelved_until, label, "
+    "comment";
 
 /// The incident in the current row.
 [[nodiscard]] core::Incident incident_from(const Statement& row);

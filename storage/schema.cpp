@@ -49,7 +49,8 @@ CREATE TABLE incident (
   state TEXT NOT NULL, opened_at INTEGER NOT NULL, resolved_at INTEGER,
   scan_stamp INTEGER NOT NULL, before_stamp INTEGER NOT NULL, after_stamp INTEGER NOT NULL,
   detector TEXT NOT NULL, score REAL, threshold REAL, config_version INTEGER NOT NULL,
-  cause TEXT NOT NULL) STRICT, WITHOUT ROWID;
+  cause TEXT NOT NULL, acknowledged_by TEXT NOT NULL, resolved_by TEXT NOT NULL,
+  shelved_until INTEGER, label TEXT, comment TEXT NOT NULL) STRICT, WITHOUT ROWID;
 CREATE INDEX incident_of_robot ON incident (robot, id);
 CREATE INDEX incident_by_opening ON incident (opened_at);
 CREATE INDEX incident_unresolved ON incident (id) WHERE state <> 'resolved';

@@ -61,6 +61,17 @@ std::string csv_line(const core::Score& score) {
 
 }  // namespace
 
+void set_care(Json& object, const core::Incident& incident) {
+  const auto set_text = [&](const char* key, const std::string& value) {
+    if (!value.empty()) object[key] = value;
+  };
+  set_text("acknowledgedBy", incident.acknowledged_by);
+  set_text("resolvedBy", incident.resolved_by);
+  if (incident.shelved_until) object["shelvedUntil"] = rfc3339(*incident.shelved_until);
+  if (incident.label) object["label"] = core::name(*incident.label);
+  set_text("comment", incident.comment);
+}
+
 Json json(const core::MotionScore& motion) {
   Json object = Json::object();
   set(object, "score", motion.score);
@@ -105,6 +116,7 @@ Json json(const core::Incident& incident) {
   set(object, "threshold", incident.threshold);
   object["explanation"] = core::sentence(incident.cause);
   object["configVersion"] = incident.config_version;
+  set_care(object, incident);
   return object;
 }
 

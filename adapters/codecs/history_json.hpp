@@ -17,6 +17,8 @@ namespace kidnapwatch::adapters::codecs {
 [[nodiscard]] Json json(const core::Score& score);
 
 [[nodiscard]] Json json(const core::Incident& incident);
+/// What people did about it; members without anything to say are left out.
+void set_care(Json& object, const core::Incident& incident);
 
 /// As text: both scans as sensor_msgs/LaserScan, with null for a beam that is NaN or infinite, and
 /// the scores.

@@ -16,9 +16,10 @@ Json ros_time(core::Stamp stamp) {
           {"nanosec", std::chrono::nanoseconds(stamp - second).count()}};
 }
 
-/// As Alertmanager's users name it: what needs somebody now, and what does not.
+/// As Alertmanager's users name it: what needs somebody now, and what does not, or not yet.
 std::string_view severity(const core::Incident& incident) {
-  return incident.state == core::IncidentState::resolved ? "info" : "critical";
+  const bool is_quiet = incident.state == core::IncidentState::resolved || incident.shelved_until;
+  return is_quiet ? "info" : "critical";
 }
 
 }  // namespace
@@ -48,6 +49,7 @@ std::string alert_message(const core::Alert& alert) {
   set(message, "threshold", incident.threshold);
   message["explanation"] = core::sentence(incident.cause);
   message["configVersion"] = incident.config_version;
+  set_care(message, incident);
   message["links"] = {{"incident", "/api/v1/incidents/" + incident.id}};
   return text(message);
 }

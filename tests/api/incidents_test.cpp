@@ -51,6 +51,37 @@ TEST_F(IncidentsTest, AreFilteredByAllThatIsAsked) {
   EXPECT_EQ(ids("?robot=nobody"), "");
 }
 
+TEST_F(IncidentsTest, AreFilteredByLabel) {
+  history.all_incidents[2].label = core::IncidentLabel::false_alarm;
+  EXPECT_EQ(ids("?label=false_alarm"), "7");
+  EXPECT_EQ(refused_field("label=ghost"), "label");
+}
+
+TEST_F(IncidentsTest, AreChangedInTheCallersName) {
+  fleet.changed = history.all_incidents[0];
+  fleet.changed->acknowledged_by = "ann";
+  const auto response = post("/api/v1/incidents/0190-9/ack", R"({"comment":"on my way"})");
+  EXPECT_EQ(response.status, 200);
+  EXPECT_EQ(body(response)["acknowledgedBy"], "ann");
+  ASSERT_EQ(fleet.commands.size(), 1U);
+  EXPECT_EQ(fleet.commands[0].first, "0190-9");
+  EXPECT_EQ(fleet.commands[0].second.action, core::IncidentAction::ack);
+  EXPECT_EQ(fleet.commands[0].second.comment, "on my way");
+  EXPECT_FALSE(fleet.commands[0].second.author.empty());
+  EXPECT_EQ(post("/api/v1/incidents/0190-9/resolve", "").status, 200);  // no body is no comment
+}
+
+TEST_F(IncidentsTest, AreNotChangedWhereThatMakesNoSense) {
+  EXPECT_EQ(post("/api/v1/incidents/none/ack", "{}").status, 404);
+  EXPECT_EQ(body(post("/api/v1/incidents/0190-9/shelve", "{}"))["field"], "seconds");
+  EXPECT_EQ(body(post("/api/v1/incidents/0190-9/label", R"({"label":1})"))["field"], "label");
+  EXPECT_EQ(post("/api/v1/incidents/0190-9/ack", "{").status, 400);
+  EXPECT_TRUE(fleet.commands.empty());
+  EXPECT_EQ(post("/api/v1/incidents/0190-1/ack", "{}").status, 409);  // is resolved
+  fleet.busy = true;
+  EXPECT_EQ(post("/api/v1/incidents/0190-9/ack", "{}").status, 503);
+}
+
 TEST_F(IncidentsTest, ArePagedByACursorThatKeepsTheFilter) {
   std::string next = "/api/v1/incidents?robot=odd&limit=2";
   std::string pages;

@@ -67,6 +67,19 @@ class MemoryFleet : public Fleet {
     return config_;
   }
 
+  /// Told what is to be done; answers what `changed` is then.
+  std::optional<core::Incident> change_incident(const std::string& id,
+                                                const core::IncidentCommand& command) override {
+    if (busy) {
+      throw Unavailable("busy");
+    }
+    commands.emplace_back(id, command);
+    return changed;
+  }
+
+  std::vector<std::pair<std::string, core::IncidentCommand>> commands;
+  std::optional<core::Incident> changed;
+  bool busy = false;
   bool overtaken = false;  ///< somebody else is faster than the next put_config
 
  private:
@@ -97,6 +110,7 @@ class MemoryHistory : public History {
       const bool wanted = query.robot.value_or(one.robot) == one.robot &&
                           query.state.value_or(one.state) == one.state &&
                           query.kind.value_or(one.kind) == one.kind &&
+                          (!query.label || query.label == one.label) &&
                           contains(query.opened_at, one.opened_at) &&
                           (!query.before_id || one.id < *query.before_id);
       if (wanted && found.size() < query.limit) {
@@ -146,6 +160,12 @@ class ApiTest : public ::testing::Test {
                std::vector<Header> headers = {}) {
     headers.push_back({"Content-Type", "application/json"});
     return call({"PUT", target, std::move(headers), body, "10.0.0.7"});
+  }
+
+  Response post(const std::string& target, const std::string& body,
+                std::vector<Header> headers = {}) {
+    headers.push_back({"Content-Type", "application/json"});
+    return call({"POST", target, std::move(headers), body, "10.0.0.7"});
   }
 
   static Json body(const Response& response) {

@@ -147,6 +147,11 @@ class OpenapiAnswersTest : public ApiTest {
     history.all_incidents = {incident, incident};
     history.all_incidents[1].id = "i1";
     history.all_incidents[1].resolved_at = at_s(3);
+    history.all_incidents[1].acknowledged_by = "ann";
+    history.all_incidents[1].resolved_by = "bob";
+    history.all_incidents[1].shelved_until = at_s(2);
+    history.all_incidents[1].label = core::IncidentLabel::test;
+    history.all_incidents[1].comment = "tried";
     core::Evidence evidence;
     evidence.scans.before.ranges_m = {1.0F, std::numeric_limits<float>::infinity()};
     evidence.scans.after.odometry = core::Pose{};

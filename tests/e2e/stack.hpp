@@ -40,6 +40,8 @@ class Stack {
   /// By curl; the body, whatever the status.
   [[nodiscard]] std::string get_text(const std::string& path) const;
   [[nodiscard]] Json get(const std::string& path) const;
+  /// The answer, whatever the status.
+  [[nodiscard]] Json post(const std::string& path, const std::string& body) const;
   /// With a bearer token, unless that is empty.
   [[nodiscard]] int status_of(const std::string& path, const std::string& token = "") const;
   /// Scans counted by the service under this outcome, or under all.

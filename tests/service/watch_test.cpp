@@ -169,6 +169,84 @@ TEST_F(WatchTest, RecordsTheDetectorsThatAreAskedForAndTheRobotsParticles) {
   EXPECT_EQ(counted(Outcome::malformed), 0U);  // it counts scans
 }
 
+class IncidentOrders : public WatchTest {
+ protected:
+  IncidentOrders() {
+    drive(2.0, 3);
+    drive(6.0, 3);
+  }
+
+  /// The incident after it, as the robot's watch, or `stored`, has it.
+  std::optional<core::Incident> order(core::IncidentAction action,
+                                      const std::optional<core::Incident>& stored = {}) {
+    Message message = test::message("", now_);
+    core::IncidentCommand command{.action = action, .author = "ann"};
+    command.shelve_for_s = 10.0;
+    command.label = core::IncidentLabel::false_alarm;
+    std::optional<core::Incident> changed;
+    message.kind = MessageKind::order;
+    message.order = std::make_shared<const Order>(
+        Order{stored.value_or(heard_.alerts().back().incident), command,
+              [&](const std::optional<core::Incident>& incident) { changed = incident; }});
+    watch_.take(message, bench_);
+    return changed;
+  }
+
+  std::string told() {
+    std::string types;
+    for (const auto& alert : heard_.alerts()) {
+      types += std::string(core::name(alert.type)) + std::to_string(alert.incident.seq) + " ";
+    }
+    return types;
+  }
+};
+
+TEST_F(IncidentOrders, AreToldInOrderWithTheirAuthor) {
+  EXPECT_EQ(order(core::IncidentAction::ack)->acknowledged_by, "ann");
+  EXPECT_EQ(order(core::IncidentAction::ack)->seq, 2U);  // changes nothing, and says nothing
+  (void)order(core::IncidentAction::label);
+  (void)order(core::IncidentAction::unack);
+  EXPECT_EQ(told(), "opened1 acknowledged2 updated3 unacknowledged4 ");
+  EXPECT_EQ(heard_.alerts()[1].author, "ann");
+  EXPECT_EQ(heard_.alerts()[0].author, "kidnapwatch");
+}
+
+TEST_F(IncidentOrders, ResolveForTheRobotToo) {
+  EXPECT_EQ(order(core::IncidentAction::resolve)->resolved_by, "ann");
+  EXPECT_EQ(watch_.status().state, core::RobotState::normal);
+  EXPECT_FALSE(watch_.status().incident_id);
+  EXPECT_EQ(heard_.states().back(), "r1 normal");
+  EXPECT_FALSE(order(core::IncidentAction::ack));
+  drive(6.0, 160);
+  EXPECT_EQ(told(), "opened1 resolved2 ");  // and is not resolved again by rule
+}
+
+TEST_F(IncidentOrders, AFurtherJumpTakesTheAcknowledgementBack) {
+  (void)order(core::IncidentAction::ack);
+  drive(2.0, 3);
+  EXPECT_EQ(told(), "opened1 acknowledged2 updated3 ");
+  EXPECT_EQ(heard_.alerts().back().incident.state, core::IncidentState::open);
+  EXPECT_EQ(heard_.alerts().back().incident.acknowledged_by, "");
+}
+
+TEST_F(IncidentOrders, ShelvingEndsByItself) {
+  EXPECT_TRUE(order(core::IncidentAction::shelve)->shelved_until);
+  now_ = core::later_by_s(now_, 9.9);
+  watch_.tick();
+  now_ = core::later_by_s(now_, 0.2);
+  watch_.tick();
+  watch_.tick();
+  EXPECT_EQ(told(), "opened1 shelved2 updated3 ");
+  EXPECT_FALSE(heard_.alerts().back().incident.shelved_until);
+}
+
+TEST_F(IncidentOrders, OfAnEarlierIncidentLeaveTheRobotAlone) {
+  core::Incident earlier{.id = "earlier", .robot = "r1", .seq = 7};
+  EXPECT_EQ(order(core::IncidentAction::resolve, earlier)->seq, 8U);
+  EXPECT_EQ(watch_.status().state, core::RobotState::kidnapped);
+  EXPECT_EQ(told(), "opened1 resolved8 ");
+}
+
 TEST_F(WatchTest, KeepsWhatItLearnedNowAndThen) {
   drive(2.0, 499);
   EXPECT_TRUE(heard_.learned().empty());

@@ -72,6 +72,11 @@ TEST_F(ArchiveTest, AnIncidentComesBackInEveryField) {
   incident.cause = core::Cause::slip;
   incident.state = IncidentState::resolved;
   incident.resolved_at = at_s(77);
+  incident.acknowledged_by = "ann";
+  incident.resolved_by = "bob";
+  incident.shelved_until = at_s(78);
+  incident.label = core::IncidentLabel::false_alarm;
+  incident.comment = "a \"forklift\"";
   put(incident);
   EXPECT_EQ(written().incident(incident.id), incident);
   EXPECT_EQ(archive_.incident("no-such-id"), std::nullopt);
@@ -92,6 +97,7 @@ TEST_F(ArchiveTest, IncidentsAreFilteredNewestFirst) {
     if (i > 4) incident.state = IncidentState::acknowledged;
     if (i == 1) incident.state = IncidentState::resolved;
     if (i == 3) incident.kind = IncidentKind::carry;
+    if (i == 2) incident.label = core::IncidentLabel::test;
     put(incident);
   }
   const auto found = [this](const IncidentFilter& filter) {
@@ -103,6 +109,7 @@ TEST_F(ArchiveTest, IncidentsAreFilteredNewestFirst) {
   EXPECT_EQ(found({.robot = "even"}), "642");
   EXPECT_EQ(found({.state = IncidentState::acknowledged}), "65");
   EXPECT_EQ(found({.kind = IncidentKind::carry}), "3");
+  EXPECT_EQ(found({.label = core::IncidentLabel::test}), "2");
   EXPECT_EQ(found({.opened_from = at_s(2), .opened_to = at_s(5)}), "432");
   EXPECT_EQ(found({.limit = 2}), "65");
   EXPECT_EQ(found({.before_id = incident_id(5), .limit = 2}), "43");

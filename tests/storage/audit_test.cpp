@@ -102,7 +102,10 @@ TEST(Audit, ChangesOfIncidentsAndConfigurationsLeaveEntries) {
   writer.put_incident({.incident = incident, .changed_at = at_s(1)});
   incident.seq = 2;
   incident.state = core::IncidentState::acknowledged;
-  writer.put_incident({.incident = incident, .changed_at = at_s(2), .author = "eve"});
+  writer.put_incident({.incident = incident,
+                       .type = core::AlertType::acknowledged,
+                       .changed_at = at_s(2),
+                       .author = "eve"});
   incident.seq = 1;  // overtaken: changes nothing
   writer.put_incident({.incident = incident, .changed_at = at_s(3), .author = "bob"});
   writer.add_audit(entry(4));
@@ -114,7 +117,7 @@ TEST(Audit, ChangesOfIncidentsAndConfigurationsLeaveEntries) {
   EXPECT_EQ(entries[2].entry.action, "incident.acknowledged");
   EXPECT_EQ(entries[2].entry.actor, "eve");
   EXPECT_EQ(entries[2].entry.at, at_s(2));
-  EXPECT_EQ(entries[3].entry, (AuditEntry{at_s(1), "kidnapwatch", "incident.open", incident.id,
+  EXPECT_EQ(entries[3].entry, (AuditEntry{at_s(1), "kidnapwatch", "incident.opened", incident.id,
                                           "robot robot-1, seq 1"}));
   EXPECT_EQ(archive.broken_audit_entry(), std::nullopt);
 }
