@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The columns of a block of scores, one after the other, and their compression.
+// The columns of a block of scores, one after the other.
 #include "storage/block.hpp"
 
 #include <algorithm>
@@ -10,9 +10,8 @@
 #include <optional>
 #include <set>
 
-#include <zstd.h>
-
 #include "storage/bytes.hpp"
+#include "storage/compression.hpp"
 #include "storage/rows.hpp"
 #include "storage/sqlite.hpp"
 
@@ -24,7 +23,6 @@ using core::Score;
 using Scores = std::span<const Score>;
 
 constexpr std::uint8_t kFormat = 1;
-constexpr int kLevel = 3;  // level 19 saves 4 % and takes 20 times as long
 constexpr std::size_t kMaxScores = 1'000'000;
 constexpr std::size_t kMaxBytesPerScore = 128;
 constexpr double kMaxDivisor = 1'000'000;  // of a cost, in beams
@@ -249,36 +247,42 @@ void get_others(ByteReader& in, std::span<Score> scores) {
   }
 }
 
-// --- compression
+constexpr std::array kMotionParts{&core::MotionScore::score, &core::MotionScore::carry};
+constexpr std::array kMotionOptions{&core::MotionScore::confirmed, &core::MotionScore::threshold};
+
+/// A byte for each score that says which parts there are, then the parts.
+void put_motion(ByteWriter& out, Scores scores) {
+  for (const Score& score : scores) out.put(motion_flags(score.motion));
+  for (const auto part : kMotionParts) {
+    put_planes(out, scores,
+               [&](const Score& one) { return one.motion ? (*one.motion).*part : 0.0; });
+  }
+  for (const auto part : kMotionOptions) {
+    put_planes(out, scores, [&](const Score& one) {
+      return one.motion ? ((*one.motion).*part).value_or(0.0) : 0.0;
+    });
+  }
+}
+
+void get_motion(ByteReader& in, std::span<Score> scores) {
+  const auto flags = in.take(scores.size());
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    scores[i].motion = motion_with(std::to_integer<std::uint8_t>(flags[i]));
+  }
+  for (const auto part : kMotionParts) {
+    get_planes(in, scores, [&](Score& one, double value) {
+      if (one.motion) (*one.motion).*part = value;
+    });
+  }
+  for (const auto part : kMotionOptions) {
+    get_planes(in, scores, [&](Score& one, double value) {
+      if (one.motion && (*one.motion).*part) (*one.motion).*part = value;
+    });
+  }
+}
 
 [[noreturn]] void refuse(const char* reason) {
   throw StorageError::damage(std::string("a block of scores ") + reason);
-}
-
-struct FreeContext {
-  void operator()(ZSTD_CCtx* context) const noexcept { ZSTD_freeCCtx(context); }
-  void operator()(ZSTD_DCtx* context) const noexcept { ZSTD_freeDCtx(context); }
-};
-
-std::vector<std::byte> compressed(std::span<const std::byte> bytes) {
-  thread_local const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
-  std::vector<std::byte> data(ZSTD_compressBound(bytes.size()));
-  const std::size_t size = ZSTD_compressCCtx(context.get(), data.data(), data.size(), bytes.data(),
-                                             bytes.size(), kLevel);
-  if (ZSTD_isError(size) != 0) refuse(ZSTD_getErrorName(size));
-  data.resize(size);
-  return data;
-}
-
-std::vector<std::byte> decompressed(std::span<const std::byte> data) {
-  thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
-  const auto size = ZSTD_getFrameContentSize(data.data(), data.size());
-  if (size > kMaxScores * kMaxBytesPerScore) refuse("is not compressed");  // or of unknown size
-  std::vector<std::byte> bytes(size);
-  const std::size_t got =
-      ZSTD_decompressDCtx(context.get(), bytes.data(), bytes.size(), data.data(), data.size());
-  if (ZSTD_isError(got) != 0 || got != size) refuse("is damaged");
-  return bytes;
 }
 
 }  // namespace
@@ -290,6 +294,13 @@ Score as_stored(Score score) {
   d.cost_per_beam = beams ? d.cost / *beams : from_short_bits(short_bits(d.cost_per_beam));
   for (auto& one : score.others) {
     one.score = static_cast<float>(from_short_bits(short_bits(one.score)));
+  }
+  if (score.motion) {
+    const auto shorten = [](double& value) { value = from_short_bits(short_bits(value)); };
+    for (const auto part : kMotionParts) shorten((*score.motion).*part);
+    for (const auto part : kMotionOptions) {
+      if (auto& value = (*score.motion).*part) shorten(*value);
+    }
   }
   return score;
 }
@@ -306,12 +317,13 @@ std::vector<std::byte> packed(Scores scores) {
     put_costs(out, scores);
     put_beams(out, scores);
     put_others(out, scores);
+    put_motion(out, scores);
   }
   return compressed(out.bytes());
 }
 
 std::vector<Score> unpacked(std::span<const std::byte> data) {
-  const auto bytes = decompressed(data);
+  const auto bytes = decompressed(data, kMaxScores * kMaxBytesPerScore);
   ByteReader in(bytes);
   if (in.get<std::uint8_t>() != kFormat) refuse("has an unknown format");
   const auto count = in.get_varint();
@@ -330,6 +342,7 @@ std::vector<Score> unpacked(std::span<const std::byte> data) {
   get_costs(in, scores);
   get_beams(in, scores);
   get_others(in, scores);
+  get_motion(in, scores);
   return scores;
 }
 

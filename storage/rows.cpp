@@ -36,7 +36,47 @@ std::vector<core::DetectorScore> others_from(std::span<const std::byte> bytes) {
   return others;
 }
 
+/// The flags, then a float for each part that there is.
+std::vector<std::byte> bytes_of(const std::optional<core::MotionScore>& motion) {
+  ByteWriter out;
+  out.put(motion_flags(motion));
+  if (motion) {
+    for (const auto& part : {std::optional(motion->score), std::optional(motion->carry),
+                             motion->confirmed, motion->threshold}) {
+      if (part) out.put(static_cast<float>(*part));
+    }
+  }
+  return {out.bytes().begin(), out.bytes().end()};
+}
+
+std::optional<core::MotionScore> motion_from(std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  auto motion = motion_with(in.get<std::uint8_t>());
+  if (!motion) return motion;
+  const auto next = [&] { return static_cast<double>(in.get<float>()); };
+  motion->score = next();
+  motion->carry = next();
+  if (motion->confirmed) motion->confirmed = next();
+  if (motion->threshold) motion->threshold = next();
+  return motion;
+}
+
 }  // namespace
+
+std::uint8_t motion_flags(const std::optional<core::MotionScore>& motion) {
+  if (!motion) return 0;
+  return static_cast<std::uint8_t>(1U | (motion->confirmed ? 2U : 0U) |
+                                   (motion->threshold ? 4U : 0U));
+}
+
+std::optional<core::MotionScore> motion_with(std::uint8_t flags) {
+  if (flags == 0) return std::nullopt;
+  if (flags > 7 || flags % 2 == 0) throw StorageError::damage("a motion score has unknown parts");
+  core::MotionScore motion;
+  if ((flags & 2U) != 0) motion.confirmed = 0.0;
+  if ((flags & 4U) != 0) motion.threshold = 0.0;
+  return motion;
+}
 
 core::DetectorId known_detector(std::uint8_t number) {
   if (number >= core::kDetectorNames.size()) {
@@ -62,6 +102,7 @@ core::Score score_from(const Statement& row, int first) {
   if (!row.is_null(first + 5)) score.threshold = row.real(first + 5);
   score.state = static_cast<core::RobotState>(row.integer(first + 6));
   score.others = others_from(row.blob(first + 7));
+  score.motion = motion_from(row.blob(first + 8));
   return score;
 }
 
@@ -69,7 +110,7 @@ void bind_score(Statement& insert, std::int64_t robot, core::Stamp arrival,
                 const core::Score& score) {
   insert.bind(robot, arrival, score.stamp, score.reference, score.dissimilarity.cost,
               score.dissimilarity.cost_per_beam, score.dissimilarity.standardized, score.threshold,
-              static_cast<int>(score.state), bytes_of(score.others));
+              static_cast<int>(score.state), bytes_of(score.others), bytes_of(score.motion));
 }
 
 core::Incident incident_from(const Statement& row) {

@@ -16,10 +16,15 @@ namespace kidnapwatch::storage {
 
 /// In the order that score_from reads them.
 inline constexpr std::string_view kScoreColumns =
-    "stamp, reference, cost, cost_per_beam, standardized, threshold, state, others";
+    "stamp, reference, cost, cost_per_beam, standardized, threshold, state, others, motion";
 
 /// The score in columns `first`... of the current row.
 [[nodiscard]] core::Score score_from(const Statement& row, int first);
+
+/// Which of its parts a stored motion score has.
+[[nodiscard]] std::uint8_t motion_flags(const std::optional<core::MotionScore>& motion);
+/// The parts that `flags` names, all 0. Throws StorageError for what is none.
+[[nodiscard]] std::optional<core::MotionScore> motion_with(std::uint8_t flags);
 
 /// The detector of this number. Throws StorageError where there is none.
 [[nodiscard]] core::DetectorId known_detector(std::uint8_t number);

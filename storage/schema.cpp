@@ -15,8 +15,9 @@ namespace {
 constexpr std::int64_t kApplicationId = 0x4b4e4157;  // "KNAW", at byte 68 of the file
 
 // Stamps are nanoseconds since 1970. A REAL that is NULL was NaN, or absent where it may be.
-// A score's state is the number of core::RobotState, and its others are a byte for the detector and
-// a float for each; the robot of an incident is its id as text.
+// A score's state is the number of core::RobotState, its others are a byte for the detector and a
+// float for each, its motion a byte of flags and floats; the robot of an incident is its id as
+// text.
 constexpr std::string_view kSchema1 = R"(
 CREATE TABLE robot (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;
 
@@ -28,13 +29,13 @@ CREATE TABLE score_even (
   id INTEGER PRIMARY KEY, robot INTEGER NOT NULL, arrival INTEGER NOT NULL,
   stamp INTEGER NOT NULL, reference INTEGER NOT NULL, cost REAL, cost_per_beam REAL,
   standardized INTEGER NOT NULL, threshold REAL, state INTEGER NOT NULL,
-  others BLOB NOT NULL) STRICT;
+  others BLOB NOT NULL, motion BLOB NOT NULL) STRICT;
 
 CREATE TABLE score_odd (
   id INTEGER PRIMARY KEY, robot INTEGER NOT NULL, arrival INTEGER NOT NULL,
   stamp INTEGER NOT NULL, reference INTEGER NOT NULL, cost REAL, cost_per_beam REAL,
   standardized INTEGER NOT NULL, threshold REAL, state INTEGER NOT NULL,
-  others BLOB NOT NULL) STRICT;
+  others BLOB NOT NULL, motion BLOB NOT NULL) STRICT;
 
 -- Scores of one robot, packed; see storage/block.hpp.
 CREATE TABLE block (

@@ -17,7 +17,7 @@ std::string hot_table(Segment segment) { return segment % 2 == 0 ? "score_even" 
 
 std::string insert_into(Segment segment) {
   return "INSERT INTO " + hot_table(segment) + " (robot, arrival, " + std::string(kScoreColumns) +
-         ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)";
+         ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)";
 }
 
 std::string empty(Segment segment) { return "DELETE FROM " + hot_table(segment); }

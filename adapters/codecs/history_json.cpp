@@ -51,6 +51,15 @@ std::string csv_cell(const core::Score& score, core::DetectorId detector) {
   return "," + (found == score.others.end() ? std::string() : number(shortest(found->score)));
 }
 
+std::string motion_cells(const std::optional<core::MotionScore>& motion) {
+  if (!motion) return ",,,,";
+  const auto cell = [](const std::optional<double>& value) {
+    return "," + (value ? number(*value) : std::string());
+  };
+  return cell(motion->score) + cell(motion->confirmed) + cell(motion->threshold) +
+         cell(motion->carry);
+}
+
 std::string csv_line(const core::Score& score) {
   return rfc3339(score.stamp) + "," + rfc3339(score.reference) + "," +
          number(score.dissimilarity.cost) + "," + number(score.dissimilarity.cost_per_beam) + "," +
@@ -134,11 +143,15 @@ std::string evidence_json(const core::Evidence& evidence) {
 
 std::string scores_csv(std::span<const core::Score> scores) {
   const auto others = detectors(scores);
+  const bool has_motion = std::ranges::any_of(
+      scores, [](const core::Score& score) { return score.motion.has_value(); });
   std::string csv = "time,referenceTime,score,scorePerBeam,standardized,threshold,state";
+  if (has_motion) csv += ",motion,motionConfirmed,motionThreshold,carry";
   for (const auto detector : others) csv.append(",").append(core::name(detector));
   csv += "\r\n";
   for (const auto& score : scores) {
     csv += csv_line(score);
+    if (has_motion) csv += motion_cells(score.motion);
     for (const auto detector : others) csv += csv_cell(score, detector);
     csv += "\r\n";
   }

@@ -60,7 +60,7 @@ TEST_F(Disk, AFileThatMayNotGrowLosesNothing) {
 
 TEST_F(Disk, AFullFileSystemLosesNothing) {
   const TemporaryFolder small;
-  if (::mount("tmpfs", small.path().c_str(), "tmpfs", 0, "size=1m") != 0) {
+  if (::mount("tmpfs", small.path().c_str(), "tmpfs", 0, "size=4m") != 0) {
     GTEST_SKIP() << "may not mount a tmpfs";
   }
   stack_.subscribe("kidnapwatch/v1/+/alert");

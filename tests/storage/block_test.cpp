@@ -56,6 +56,16 @@ std::vector<core::DetectorScore> some_others(std::mt19937_64& random) {
   return others;
 }
 
+std::optional<core::MotionScore> some_motion(std::mt19937_64& random) {
+  const auto coin = [&] { return random() % 2 == 0; };
+  const auto real = [&] { return static_cast<double>(random() % 4000) * 0.013 - 8.0; };
+  if (coin()) return std::nullopt;
+  return core::MotionScore{.score = real(),
+                           .confirmed = coin() ? std::optional(real()) : std::nullopt,
+                           .threshold = coin() ? std::optional(real()) : std::nullopt,
+                           .carry = real()};
+}
+
 /// Any score at all, with little in common with those before it.
 Score anything(std::mt19937_64& random) {
   const auto coin = [&] { return random() % 2 == 0; };
@@ -68,6 +78,7 @@ Score anything(std::mt19937_64& random) {
        .reference = core::stamp_from_ns(static_cast<std::int64_t>(random())),
        .dissimilarity = {.cost = real(), .cost_per_beam = real(), .standardized = coin()},
        .threshold = coin() ? std::optional(real()) : std::nullopt,
+       .motion = some_motion(random),
        .state = static_cast<RobotState>(random() % 6),
        .others = some_others(random)});
 }

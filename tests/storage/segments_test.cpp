@@ -163,6 +163,7 @@ TEST_F(SegmentsTest, AReaderBetweenTheCommitAndMemoryFindsEachScoreOnce) {
 TEST_F(SegmentsTest, WhatOtherDetectorsSaidIsReadBackFromTheHotTable) {
   auto rows = next_rows(1);
   rows[0].score.others = {{core::detector_id("1ddtw", ""), 1.5F}, {core::detector_id("me", ""), 3}};
+  rows[0].score.motion = core::MotionScore{.score = 1.5, .confirmed = -2.0, .carry = 0.25};
   commit(rows);
   const auto found = hot_scores(database_)->of("robot-0");
   ASSERT_EQ(found.size(), 1U);

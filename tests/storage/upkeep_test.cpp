@@ -118,7 +118,7 @@ TEST_F(UpkeepTest, ACheckOfALargeFileEndsInTime) {
   Database(folder_.store(), Access::read_write)
       .execute(
           "WITH RECURSIVE n(i) AS (VALUES (1) UNION ALL SELECT i + 1 FROM n LIMIT 300000) "
-          "INSERT INTO score_even SELECT i, 1, i, i, i, 0.5, 0.5, 0, 0.5, 1, x'' FROM n");
+          "INSERT INTO score_even SELECT i, 1, i, i, i, 0.5, 0.5, 0, 0.5, 1, x'', x'00' FROM n");
   overwrite(40 * kPage, std::string(4096, 'x'));  // among the oldest rows, which are checked last
   EXPECT_TRUE(damage(folder_.store(), std::chrono::hours(1)));
   EXPECT_EQ(damage(folder_.store(), std::chrono::milliseconds(1)), std::nullopt);

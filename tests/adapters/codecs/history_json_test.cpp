@@ -45,6 +45,15 @@ TEST(HistoryJson, SpellsWhatOtherDetectorsSaidOfAScan) {
   EXPECT_NE(csv.find("180,normal,0.1,\r\n"), std::string::npos);
 }
 
+TEST(HistoryJson, SpellsMotionInCsvWhereThereIsAny) {
+  auto moving = score();
+  moving.motion = core::MotionScore{.score = 1.5, .confirmed = -2.0, .carry = 0.25};
+  const std::string csv = scores_csv(std::vector{score(), moving});
+  EXPECT_NE(csv.find("state,motion,motionConfirmed,motionThreshold,carry\r\n"), std::string::npos);
+  EXPECT_NE(csv.find("180,normal,,,,\r\n"), std::string::npos);
+  EXPECT_NE(csv.find("180,normal,1.5,-2,,0.25\r\n"), std::string::npos);
+}
+
 TEST(HistoryJson, SpellsAnIncident) {
   const core::Incident incident{.id = "0190",
                                 .robot = "r1",
