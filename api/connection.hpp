@@ -96,6 +96,8 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
+  [[nodiscard]] const std::string& peer() const { return peer_; }
+
   /// Any thread.
   void start(Place place) {
     net::post(stream_.get_executor(), [self = this->shared_from_this(), place] {

@@ -7,21 +7,31 @@
 
 namespace kidnapwatch::api {
 
-Place Connections::enter(const void* connection, Stop stop) {
+Place Connections::enter(const void* connection, const std::string& peer, Stop stop) {
   const std::scoped_lock lock(mutex_);
-  if (closed_ || in_.size() >= 2 * max_served_) {
+  const auto known = peers_.find(peer);
+  const Peer before = known == peers_.end() ? Peer{} : known->second;
+  if (closed_ || in_.size() >= 2 * max_served_ || before.in >= 2 * max_per_peer_) {
     return Place::cut;
   }
-  const bool fits = served_ < max_served_;
-  served_ += fits ? 1 : 0;
-  in_.emplace(connection, Entry{std::move(stop), fits});
-  return fits ? Place::served : Place::refused;
+  const bool is_served = served_ < max_served_ && before.served < max_per_peer_;
+  const std::size_t more = is_served ? 1 : 0;
+  served_ += more;
+  peers_[peer] = {before.in + 1, before.served + more};
+  in_.emplace(connection, Entry{std::move(stop), is_served, peer});
+  return is_served ? Place::served : Place::refused;
 }
 
 void Connections::leave(const void* connection) {
   const std::scoped_lock lock(mutex_);
   if (const auto found = in_.find(connection); found != in_.end()) {
-    served_ -= found->second.served ? 1 : 0;
+    const auto& [stop, is_served, name] = found->second;
+    const auto peer = peers_.find(name);
+    served_ -= is_served ? 1 : 0;
+    peer->second.served -= is_served ? 1 : 0;
+    if (--peer->second.in == 0) {
+      peers_.erase(peer);
+    }
     in_.erase(found);
   }
   left_.notify_all();

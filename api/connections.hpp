@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <unordered_map>
 
 namespace kidnapwatch::api {
@@ -23,11 +24,13 @@ class Connections {
  public:
   using Stop = std::function<void()>;
 
-  /// Serves `max_served` at a time, and refuses so many that it knows of twice as many.
-  explicit Connections(std::size_t max_served) : max_served_(max_served) {}
+  /// Serves `max_served` at a time, `max_per_peer` of one peer, and refuses so many that it knows
+  /// of twice as many, of all and of one peer.
+  Connections(std::size_t max_served, std::size_t max_per_peer)
+      : max_served_(max_served), max_per_peer_(max_per_peer) {}
 
   /// `stop` is what close() calls, on its thread, even just after the connection left.
-  Place enter(const void* connection, Stop stop);
+  Place enter(const void* connection, const std::string& peer, Stop stop);
 
   /// Nothing if it is not in.
   void leave(const void* connection);
@@ -41,13 +44,21 @@ class Connections {
   struct Entry {
     Stop stop;
     bool served;
+    std::string peer;
+  };
+
+  struct Peer {
+    std::size_t in = 0;
+    std::size_t served = 0;
   };
 
   const std::size_t max_served_;
+  const std::size_t max_per_peer_;
   std::mutex mutex_;
   std::condition_variable left_;
   std::unordered_map<const void*, Entry> in_;
   std::size_t served_ = 0;
+  std::unordered_map<std::string, Peer> peers_;  // that are in
   bool closed_ = false;
 };
 

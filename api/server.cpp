@@ -49,7 +49,8 @@ std::optional<net::ssl::context> tls(const ServerConfig& config) {
 class Server::Listener {
  public:
   Listener(const ServerConfig& config, Answer answer)
-      : shared_(new Shared{config, std::move(answer), Connections(config.max_connections)}),
+      : shared_(new Shared{config, std::move(answer),
+                           Connections(config.max_connections, config.max_connections_per_peer)}),
         tls_(tls(config)),
         acceptor_(net::make_strand(io_)),
         pause_(acceptor_.get_executor()) {
@@ -119,12 +120,12 @@ class Server::Listener {
   template <typename Stream>
   void serve(Stream stream) {
     const auto connection = std::make_shared<Connection<Stream>>(std::move(stream), shared_);
-    connection->start(
-        shared_->connections.enter(connection.get(), [weak = std::weak_ptr(connection)] {
-          if (const auto self = weak.lock()) {
-            self->stop();
-          }
-        }));
+    connection->start(shared_->connections.enter(connection.get(), connection->peer(),
+                                                 [weak = std::weak_ptr(connection)] {
+                                                   if (const auto self = weak.lock()) {
+                                                     self->stop();
+                                                   }
+                                                 }));
   }
 
   std::shared_ptr<Shared> shared_;

@@ -170,7 +170,8 @@ Service::Parts::Parts(const Settings& settings)
                         .port = settings.http_port,
                         .cert_file = settings.http_cert_file,
                         .key_file = settings.http_key_file,
-                        .max_connections = settings.http_max_connections},
+                        .max_connections = settings.http_max_connections,
+                        .max_connections_per_peer = (settings.http_max_connections + 1) / 2},
       [this](const api::Request& request) {
         return api::answer(ports_, request, [](const std::string& fault) {
           spdlog::error("a request failed: {}", fault);

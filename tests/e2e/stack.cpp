@@ -64,6 +64,11 @@ std::string Stack::url() const {
   return std::regex_search(log, found, std::regex("serves (http://[^,]*),")) ? found[1].str() : "";
 }
 
+std::uint16_t Stack::http_port() const {
+  const std::string all = url();
+  return static_cast<std::uint16_t>(std::stoi(all.substr(all.rfind(':') + 1)));
+}
+
 std::string Stack::get_text(const std::string& path) const {
   return output_of({"curl", "-s", "--max-time", "20", url() + path});
 }

@@ -2,6 +2,7 @@
 // A real broker, a real service and the tools that people use with them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,8 @@ class Stack {
   [[nodiscard]] std::unique_ptr<Process> robots_in_background(std::vector<std::string> words) const;
   void publish(const std::string& topic, const std::string& payload) const;
 
+  /// Where the service serves REST, on 127.0.0.1.
+  [[nodiscard]] std::uint16_t http_port() const;
   /// By curl; the body, whatever the status.
   [[nodiscard]] std::string get_text(const std::string& path) const;
   [[nodiscard]] Json get(const std::string& path) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A clock that jumps: no false incident, no robot called silent, and the operator is told.
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "tests/reliability/promise.hpp"
 
@@ -42,6 +44,7 @@ TEST_P(ClockJump, InventsNoIncidentAndIsTold) {
   EXPECT_EQ(degraded(), std::set<std::string>{});
   set_clock(GetParam());
   EXPECT_TRUE(eventually([&] { return degraded().contains("clock"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // two looks for silent robots
   drive(2);
   for (const auto& message : stack_.received()) {
     EXPECT_EQ(message.payload.find("stale"), std::string::npos) << message.payload;

@@ -57,8 +57,9 @@ TEST_F(Kill, IncidentAlertAndAuditStayOneAndAllIsDelivered) {
   const auto incidents = rows("SELECT id FROM incident");
   for (const auto& id : incidents) missing += arrived.contains(id) ? 0 : 1;
   EXPECT_EQ(missing, 0);
-  report(std::to_string(kills) + " kills, " + std::to_string(incidents.size()) + " incidents, " +
-         std::to_string(missing) + " of them not received; " +
+  report(std::to_string(kills) + " kills, " + std::to_string(incidents.size()) +
+         " incidents with " + std::to_string(number("SELECT sum(seq) FROM incident")) +
+         " changes, " + std::to_string(missing) + " of them not received; " +
          std::to_string(arrived.size() - incidents.size()) + " received but not stored");
 }
 

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include "tests/reliability/mqtt_bytes.hpp"
 #include "tests/reliability/promise.hpp"
 #include "tests/reliability/scale.hpp"
 #include "tests/support/sockets.hpp"
@@ -15,27 +16,6 @@ namespace kidnapwatch::test {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
-
-/// A text with its length in front, as MQTT writes it.
-std::string counted(const std::string& text) {
-  return std::string{static_cast<char>(text.size() >> 8U), static_cast<char>(text.size())} + text;
-}
-
-/// A packet of MQTT 3.1.1 (2.2): type, remaining length in base 128, the rest.
-std::string packet(char type, const std::string& rest) {
-  std::string bytes{type};
-  for (std::size_t left = rest.size();;) {
-    const auto low = static_cast<unsigned char>(left % 128);
-    left /= 128;
-    bytes += static_cast<char>(left > 0 ? low | 0x80U : low);
-    if (left == 0) return bytes + rest;
-  }
-}
-
-std::string connect_packet(const std::string& id) {
-  return packet('\x10',
-                counted("MQTT") + std::string{'\x04', '\x02', '\x00', '\x3c'} + counted(id));
-}
 
 constexpr const char* kScan =
     R"({"header":{"stamp":{"sec":5,"nanosec":0}},"angle_min":0,"angle_increment":0.1,)"
@@ -77,7 +57,7 @@ TEST_F(Storm, ManyRobotsConnectAtOnceAndEachIsHeard) {
   const Seconds connected = std::chrono::steady_clock::now() - begin;
   for (int i = 0; i < robots; ++i) {
     const auto topic = "kidnapwatch/v1/storm-" + std::to_string(i) + "/scan";
-    say(sockets.at(static_cast<std::size_t>(i)), packet('\x30', counted(topic) + kScan));
+    say(sockets.at(static_cast<std::size_t>(i)), publish_packet(topic, kScan));
   }
   const auto all = static_cast<std::uint64_t>(robots);
   EXPECT_TRUE(eventually([&] { return stack_.counted("first") >= all; }));

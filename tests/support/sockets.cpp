@@ -61,8 +61,11 @@ std::uint16_t port_of(const Socket& socket) {
   return ntohs(address.sin_port);
 }
 
-Socket connected_to(std::uint16_t port) {
+Socket connected_to(std::uint16_t port, std::uint8_t from) {
   Socket socket = tcp_socket();
+  sockaddr_in own = loopback(0);
+  own.sin_addr.s_addr = htonl((INADDR_LOOPBACK & ~0xffU) | from);
+  check(::bind(socket.fd(), reinterpret_cast<const sockaddr*>(&own), sizeof own), "bind");
   const sockaddr_in address = loopback(port);
   const int result =
       ::connect(socket.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address);

@@ -27,7 +27,7 @@ class Socket {
 [[nodiscard]] Socket listening(std::uint16_t port);
 /// Where a socket is bound.
 [[nodiscard]] std::uint16_t port_of(const Socket& socket);
-/// Connected to 127.0.0.1:port; empty if nobody listens there.
-[[nodiscard]] Socket connected_to(std::uint16_t port);
+/// Connected to 127.0.0.1:port, from 127.0.0.`from`; empty if nobody listens there.
+[[nodiscard]] Socket connected_to(std::uint16_t port, std::uint8_t from = 1);
 
 }  // namespace kidnapwatch::test
