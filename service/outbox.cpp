@@ -2,10 +2,6 @@
 // Which alerts are on their way, which have arrived, which are to go again.
 #include "service/outbox.hpp"
 
-#include <utility>
-
-#include "adapters/codecs/messages.hpp"
-
 namespace kidnapwatch::service {
 
 /// Lives as long as the link holds the message: until it was delivered, refused or dropped.
@@ -36,16 +32,15 @@ class Outbox::OnItsWay {
 
 void Outbox::send(const storage::OutboxMessage& alert) {
   const auto on_its_way = std::make_shared<const OnItsWay>(sent_, alert.event_id);
-  link_.publish_alert(alert.robot, alert.payload, std::string(adapters::codecs::kAlertSchema),
-                      [this, on_its_way] {
-                        on_its_way->arrived();
-                        writer_.confirm_delivery(on_its_way->event_id());
-                      });
+  ways_.publish(alert, [this, on_its_way] {
+    on_its_way->arrived();
+    ways_.confirm(on_its_way->event_id());
+  });
 }
 
 void Outbox::send_again(bool unresolved_too) {
   std::set<std::string> undelivered;
-  for (const auto& alert : archive_.outbox()) {
+  for (const auto& alert : ways_.stored()) {
     if (!alert.delivered) undelivered.insert(alert.event_id);
     if (is_due(alert, unresolved_too)) send(alert);
   }

@@ -2,14 +2,15 @@
 // Alerts on their way to the broker: at once, and again until they have arrived.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "adapters/mqtt/link.hpp"
-#include "storage/archive.hpp"
-#include "storage/writer.hpp"
+#include "storage/records.hpp"
 
 namespace kidnapwatch::service {
 
@@ -17,9 +18,17 @@ namespace kidnapwatch::service {
 /// of the service left behind, goes out again. Every repetition carries the id of its event.
 class Outbox {
  public:
-  /// All outlive this.
-  Outbox(adapters::mqtt::Link& link, storage::Writer& writer, const storage::Archive& archive)
-      : link_(link), writer_(writer), archive_(archive) {}
+  /// Where alerts go and where they come from.
+  struct Ways {
+    /// To the broker. `on_delivered` is called when it has the alert, and destroyed when it was
+    /// delivered, refused or dropped.
+    std::function<void(const storage::OutboxMessage&, std::function<void()> on_delivered)> publish;
+    /// To the store: this one has arrived.
+    std::function<void(const std::string& event_id)> confirm;
+    /// Of the store, in order. Throws StorageError.
+    std::function<std::vector<storage::OutboxMessage>()> stored;
+  };
+  explicit Outbox(Ways ways) : ways_(std::move(ways)) {}
 
   /// The store has the alert, or will have. Never blocks. Any thread.
   void send(const storage::OutboxMessage& alert);
@@ -40,9 +49,7 @@ class Outbox {
   [[nodiscard]] bool is_due(const storage::OutboxMessage& alert, bool unresolved_too) const;
   void forget_delivered_but(const std::set<std::string>& undelivered);
 
-  adapters::mqtt::Link& link_;
-  storage::Writer& writer_;
-  const storage::Archive& archive_;
+  const Ways ways_;
   const std::shared_ptr<Sent> sent_ = std::make_shared<Sent>();
 };
 

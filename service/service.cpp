@@ -109,6 +109,7 @@ class Service::Parts final : public api::Fleet {
  private:
   [[nodiscard]] mqtt::LinkConfig link_config() const;
   [[nodiscard]] mqtt::LinkEvents link_events();
+  [[nodiscard]] Outbox::Ways outbox_ways();
   [[nodiscard]] service::Fleet::Outside outside();
   [[nodiscard]] api::Guard::Lookup token_lookup() const;
   void resume_robots();
@@ -147,7 +148,7 @@ Service::Parts::Parts(const Settings& settings)
                .commit_every = std::chrono::milliseconds(settings.store_commit_every_ms)}),
       archive_(settings.store_file, writer_.recent()),
       link_(link_config(), link_events()),
-      outbox_(link_, writer_, archive_),
+      outbox_(outbox_ways()),
       announcements_(link_, writer_, outbox_, settings.mqtt_publish_scores),
       fleet_({.lanes = settings.service_lanes,
               .max_robots = settings.service_max_robots,
@@ -199,6 +200,16 @@ mqtt::LinkEvents Service::Parts::link_events() {
   return {.on_message = [this](const auto& topic, const auto& message) { receive(topic, message); },
           .on_connected = [this] { say_again(); },
           .on_trouble = [](const std::string& what) { spdlog::warn("broker: {}", what); }};
+}
+
+Outbox::Ways Service::Parts::outbox_ways() {
+  return {.publish =
+              [this](const auto& alert, auto on_delivered) {
+                link_.publish_alert(alert.robot, alert.payload, std::string(codecs::kAlertSchema),
+                                    std::move(on_delivered));
+              },
+          .confirm = [this](const auto& event_id) { writer_.confirm_delivery(event_id); },
+          .stored = [this] { return archive_.outbox(); }};
 }
 
 service::Fleet::Outside Service::Parts::outside() {
