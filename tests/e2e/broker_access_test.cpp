@@ -138,7 +138,9 @@ TEST_F(BrokerAccess, ARobotCannotEvictTheService) {
 TEST_F(BrokerAccess, TheServiceRefusesABrokerWithAWrongCertificate) {
   Stack stack;
   stack.broker_url = "mqtts://127.0.0.1:" + std::to_string(operators_port_);
-  stack.start_service({"--mqtt-ca-file", (folder() / "strangers-ca.crt").string()});
+  const std::string here = folder().string() + "/";
+  stack.start_service({"--mqtt-ca-file", here + "strangers-ca.crt", "--mqtt-cert-file",
+                       here + "kidnapwatch.crt", "--mqtt-key-file", here + "kidnapwatch.key"});
   EXPECT_TRUE(
       eventually([&] { return stack.service_log().find("connecting") != std::string::npos; }));
   EXPECT_EQ(stack.status_of("/readyz"), 503);
