@@ -97,7 +97,8 @@ Observation Session::observe(Scan& scan, Stamp arrival, DissimilarityWorkspace& 
   if (const auto outcome = refusal(scan)) {
     return {*outcome, {}};
   }
-  const MotionVerdict motion = motion_.observe(scan, !incident_open_);
+  const MotionVerdict motion =
+      uses_motion(config_.alarm) ? motion_.observe(scan, !incident_open_) : MotionVerdict{};
   note_trouble(motion);
   prepare(scan, config_.dissimilarity, bearings_, sample_);
   Observation seen{Outcome::first, {}};
@@ -156,7 +157,7 @@ Verdict Session::judge(const Scan& scan, const MotionVerdict& motion,
   score.reference = reference_.stamp;
   score.dissimilarity = dissimilarity(reference_sample_, sample_, config_.dissimilarity, workspace);
   score.threshold = threshold();
-  score.motion = motion_score(motion);
+  if (uses_motion(config_.alarm)) score.motion = motion_score(motion);
   verdict.change = advance(scan, score, motion, workspace);
   last_score_ = score.dissimilarity.cost;
   score.state = state();
@@ -266,6 +267,9 @@ void Session::configure(const DetectionConfig& config) {
     }
   }
   motion_.configure(motion_config(config));
+  if (!uses_motion(config_.alarm)) {
+    motion_.forget_scans();  // it has not seen the latest ones
+  }
   config_ = config;
 }
 

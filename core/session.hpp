@@ -20,10 +20,11 @@
 
 namespace kidnapwatch::core {
 
-/// Which detectors raise the alarm. All are computed, whichever it is.
+/// Which detectors raise the alarm. The paper's score is always computed, motion consistency (most
+/// of the time that a scan takes) where it has a say.
 enum class AlarmBy : std::uint8_t {
   motion_consistency,  ///< the lidar against the wheels; carries too
-  qs2ddtw,             ///< the paper's score
+  qs2ddtw,             ///< the paper's score alone
   either,              ///< any of them
   both,                ///< both, by the same scan
 };

@@ -98,9 +98,13 @@ TEST_F(SessionMotionTest, LearnsNothingWhileAnIncidentIsOpen) {
   EXPECT_EQ(session_.calibration_pairs(), pairs);
 }
 
-TEST_F(SessionMotionTest, AlwaysRecordsBothScores) {
+TEST_F(SessionMotionTest, RecordsMotionWhereItHasASayAndThePapersScoreAlways) {
   drive(130);
-  for (const AlarmBy alarm : {AlarmBy::qs2ddtw, AlarmBy::motion_consistency, AlarmBy::both}) {
+  choose(AlarmBy::qs2ddtw);
+  step();
+  EXPECT_GT(last_->score.dissimilarity.cost, 0.0);
+  EXPECT_FALSE(last_->score.motion);
+  for (const AlarmBy alarm : {AlarmBy::motion_consistency, AlarmBy::either, AlarmBy::both}) {
     choose(alarm);
     step();
     EXPECT_GT(last_->score.dissimilarity.cost, 0.0);
@@ -108,6 +112,15 @@ TEST_F(SessionMotionTest, AlwaysRecordsBothScores) {
     ASSERT_TRUE(last_->score.motion);
     EXPECT_TRUE(last_->score.motion->threshold);
   }
+}
+
+TEST_F(SessionMotionTest, ComparesWithNoScanOfBeforeItHadASay) {
+  drive(200);
+  choose(AlarmBy::qs2ddtw);
+  take_off();
+  drive(3);
+  choose(AlarmBy::motion_consistency);
+  EXPECT_FALSE(drive(5));
 }
 
 TEST_F(SessionMotionTest, RaisesAlarmByWhatIsConfigured) {
