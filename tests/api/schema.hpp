@@ -42,7 +42,7 @@ inline std::string object_misfit(const Json& document, const Json& schema, const
     }
     const auto& inner = properties.contains(name) ? properties[name] : rest;
     if (const auto wrong = misfit(document, inner, member); !wrong.empty()) {
-      return name + ": " + wrong;
+      return std::string(name).append(": ").append(wrong);
     }
   }
   return "";
@@ -85,7 +85,7 @@ inline std::string misfit(const Json& document, const Json& reference, const Jso
   }
   if (value.is_array() && schema.contains("items")) {
     for (const auto& item : value) {
-      if (const auto wrong = misfit(document, schema["items"], item); !wrong.empty()) {
+      if (auto wrong = misfit(document, schema["items"], item); !wrong.empty()) {
         return wrong;
       }
     }
