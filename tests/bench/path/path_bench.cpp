@@ -54,7 +54,9 @@ void run_path(benchmark::State& state, const std::vector<std::string>& payloads,
   codecs::ScanDecoder decoder;
   core::Scan scan;
   core::DissimilarityWorkspace workspace;
-  core::Session session(core::DetectionConfig{});
+  core::DetectionConfig config;
+  config.alarm = core::AlarmBy::qs2ddtw;  // the rest is in motion_bench
+  core::Session session(config);
   core::Stamp stamp{};
   std::size_t i = 0;
   for (auto _ : state) {
