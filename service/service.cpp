@@ -73,14 +73,8 @@ core::ConfigVersion starting_config(const storage::Archive& archive, const Setti
 }
 
 MessageKind message_kind(mqtt::TopicKind topic) {
-  switch (topic) {
-    case mqtt::TopicKind::odom:
-      return MessageKind::odometry;
-    case mqtt::TopicKind::particles:
-      return MessageKind::particles;
-    default:
-      return MessageKind::scan;
-  }
+  if (topic == mqtt::TopicKind::odom) return MessageKind::odometry;
+  return topic == mqtt::TopicKind::particles ? MessageKind::particles : MessageKind::scan;
 }
 
 }  // namespace
@@ -256,17 +250,19 @@ std::optional<core::Incident> Service::Parts::change_incident(
   if (!is_taken || changed.wait_for(kPatience) != std::future_status::ready) {
     throw api::Unavailable("the robot's lane is too busy");
   }
-  auto result = changed.get();
-  auto stored_now = writer_.flush();
-  if (stored_now.wait_for(kPatience) != std::future_status::ready) {
-    throw api::Unavailable("the store is too slow: the change is made, but not stored yet");
-  }
   try {
+    auto result = changed.get();
+    auto stored_now = writer_.flush();
+    if (stored_now.wait_for(kPatience) != std::future_status::ready) {
+      throw api::Unavailable("the store is too slow: the change is made, but not stored yet");
+    }
     stored_now.get();
+    return result;
+  } catch (const std::future_error&) {  // newer messages pushed the order out
+    throw api::Unavailable("the robot's queue is full");
   } catch (const storage::StorageError& error) {
     throw api::Unavailable(std::string("the change is made, but not stored yet: ") + error.what());
   }
-  return result;
 }
 
 void Service::Parts::resume_robots() {
