@@ -72,4 +72,13 @@ Socket connected_to(std::uint16_t port, std::uint8_t from) {
   return result == 0 ? std::move(socket) : Socket();
 }
 
+Socket connecting_to(std::uint16_t port) {
+  Socket socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  const sockaddr_in address = loopback(port);
+  const int result =
+      ::connect(socket.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  check(result < 0 && errno == EINPROGRESS ? 0 : result, "connect");
+  return socket;
+}
+
 }  // namespace kidnapwatch::test

@@ -29,5 +29,7 @@ class Socket {
 [[nodiscard]] std::uint16_t port_of(const Socket& socket);
 /// Connected to 127.0.0.1:port, from 127.0.0.`from`; empty if nobody listens there.
 [[nodiscard]] Socket connected_to(std::uint16_t port, std::uint8_t from = 1);
+/// On its way to 127.0.0.1:port, and never blocking: writable when it is there.
+[[nodiscard]] Socket connecting_to(std::uint16_t port);
 
 }  // namespace kidnapwatch::test
