@@ -44,8 +44,11 @@ bool Lane::is_allowed(Inbox& inbox) const {
 bool Lane::put(Inbox& inbox, Message message) {
   bool lost_scan = false;
   if (inbox.messages.size() >= queue_per_robot_) {
-    lost_scan = inbox.messages.front().kind == MessageKind::scan;
-    inbox.messages.pop_front();
+    const auto oldest = std::ranges::find_if(
+        inbox.messages, [](const Message& queued) { return queued.kind != MessageKind::order; });
+    if (oldest == inbox.messages.end()) return message.kind == MessageKind::scan;
+    lost_scan = oldest->kind == MessageKind::scan;
+    inbox.messages.erase(oldest);
   } else {
     ++queued_;
   }

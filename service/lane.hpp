@@ -24,8 +24,9 @@ struct LaneConfig {
 
 /// A robot belongs to one lane, so that its watch needs no lock while it computes. Each robot has a
 /// queue of its own: when that is full its oldest message is dropped, counted as `overload` if it
-/// was a scan, and no robot waits for more than one message of each other. What a robot sends above
-/// scans_per_s is dropped on arrival, and its scans are counted as `overload` too.
+/// was a scan, and no robot waits for more than one message of each other. An order stays: somebody
+/// waits for it; one too many for a queue full of orders is dropped itself. What a robot sends
+/// above scans_per_s is dropped on arrival, and its scans are counted as `overload` too.
 class Lane {
  public:
   explicit Lane(const LaneConfig& config);

@@ -258,8 +258,8 @@ std::optional<core::Incident> Service::Parts::change_incident(
     }
     stored_now.get();
     return result;
-  } catch (const std::future_error&) {  // newer messages pushed the order out
-    throw api::Unavailable("the robot's queue is full");
+  } catch (const std::future_error&) {
+    throw api::Unavailable("the robot's queue is full of orders");
   } catch (const storage::StorageError& error) {
     throw api::Unavailable(std::string("the change is made, but not stored yet: ") + error.what());
   }

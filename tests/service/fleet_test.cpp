@@ -133,6 +133,39 @@ TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
   EXPECT_EQ(fleet.robot("calm")->counts.at(static_cast<std::size_t>(Outcome::first)), 1U);
 }
 
+TEST_F(FleetTest, AnOrderIsCarriedOutHoweverManyScansComeAfterIt) {
+  Held held;
+  auto around = outside();
+  Fleet fleet(
+      {.lanes = 1, .lane = {.queue_per_robot = 4}},
+      {held, around.now, around.uptime, around.new_id, around.log_refusal, around.save_config},
+      test::with_threshold(60.0));
+  fleet.receive("loud", test::message(round_room(2.0, 1.0), fixed_now()));
+  fleet.receive("loud", test::message(round_room(2.0, 2.0), fixed_now()));
+  held.reached_.get_future().wait();  // the lane is busy with the second scan
+  std::vector<std::future<void>> done;
+  const auto order = [&] {
+    const auto promise = std::make_shared<std::promise<void>>();
+    done.push_back(promise->get_future());
+    core::Incident incident;
+    incident.robot = "loud";
+    EXPECT_TRUE(fleet.change_incident(
+        {.stored = incident, .command = {.author = "test"}, .on_done = [promise](const auto&) {
+           promise->set_value();
+         }}));
+  };
+  for (int i = 0; i < 4; ++i) order();
+  for (int i = 3; i < 13; ++i) {
+    fleet.receive("loud", test::message(round_room(2.0, i), fixed_now()));
+  }
+  order();  // one more than there is room for
+  held.let_go_.set_value();
+  fleet.stop();
+  for (int i = 0; i < 4; ++i) EXPECT_NO_THROW(done.at(i).get());
+  EXPECT_THROW(done.at(4).get(), std::future_error);
+  EXPECT_EQ(counted(fleet, "loud", Outcome::overload), 10U);
+}
+
 TEST_F(FleetTest, ItIsScansThatMakeARobot) {
   Fleet fleet({.lanes = 1}, outside(), {});
   Message particles = test::message("[1]", fixed_now());
