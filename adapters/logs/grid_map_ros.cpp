@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <zlib.h>
 
@@ -160,7 +161,8 @@ GridMap map_of(const Fields& fields, const Image& image) {
 
 std::filesystem::path image_file(const std::filesystem::path& yaml, const std::string& image) {
   const std::filesystem::path file = yaml.parent_path() / image;
-  return exists(file) ? file : std::filesystem::path(file.string() + ".gz");
+  std::error_code ignored;  // of a name that is none: it cannot be opened either
+  return exists(file, ignored) ? file : std::filesystem::path(file.string() + ".gz");
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ TEST_F(Delivery, AHalfOpenConnectionIsNoticedAndItsAlertsGoOutByTheNext) {
   Proxy cable(stack_.broker.port());
   stack_.broker_url = cable.url();
   stack_.subscribe("kidnapwatch/v1/+/alert");
-  start_service({"--mqtt-keep-alive-s", "1"});
+  start_service({"--mqtt-keep-alive-s", "3"});
   kidnap_two();
   ASSERT_TRUE(eventually([&] { return all_delivered(); }));
   const auto before = received("eventId");

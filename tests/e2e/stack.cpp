@@ -10,12 +10,22 @@
 
 namespace kidnapwatch::test {
 
+Stack::~Stack() { expect_no_finding(); }
+
+/// Of a sanitizer: a service that is killed cannot tell by its exit code.
+void Stack::expect_no_finding() const {
+  const std::string log = service_log();
+  EXPECT_EQ(log.find("Sanitizer"), std::string::npos) << log;
+  EXPECT_EQ(log.find("runtime error:"), std::string::npos) << log;
+}
+
 void Stack::start_service(const std::vector<std::string>& more_flags) {
   std::vector<std::string> words = under;
   words.insert(words.end(), {KW_PROGRAM, "serve", "--mqtt-url", broker_url, "--http-port", "0",
                              "--store-file", database().string()});
   words.insert(words.end(), more_flags.begin(), more_flags.end());
   service.reset();
+  expect_no_finding();
   service =
       std::make_unique<Process>(words, folder_.path() / "serve.out", folder_.path() / "serve.log");
   ASSERT_TRUE(eventually([&] { return !url().empty(); })) << service_log();

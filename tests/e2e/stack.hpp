@@ -27,6 +27,9 @@ class Stack {
  public:
   /// Starts the broker.
   Stack() { broker.start(); }
+  ~Stack();
+  Stack(const Stack&) = delete;
+  Stack& operator=(const Stack&) = delete;
 
   void start_service(const std::vector<std::string>& more_flags = {});
   void await_ready() const;
@@ -65,6 +68,7 @@ class Stack {
 
  private:
   [[nodiscard]] std::string url() const;
+  void expect_no_finding() const;
 
   TemporaryFolder folder_;
   std::unique_ptr<Process> subscriber_;

@@ -35,7 +35,8 @@ double seconds_since(Clock::time_point begin) {
 
 std::string name_of(int robot) { return "robot-" + std::to_string(robot); }
 
-/// Scores as a lidar with 360 beams gives them: some beams miss, stamps jitter by 1 ms.
+/// Scores as a lidar with 360 beams gives them, by both detectors: some beams miss, stamps jitter
+/// by 1 ms.
 class Drive {
  public:
   explicit Drive(unsigned seed) : random_(seed) {}
@@ -51,6 +52,11 @@ class Drive {
                       .state = core::RobotState::normal};
     score.dissimilarity.cost = std::exp(2.0 + level_ + 0.3 * noise_(random_));
     score.dissimilarity.cost_per_beam = score.dissimilarity.cost / beams_(random_);
+    carry_ = std::max(0.0, carry_ + 0.5 * noise_(random_) - 0.3);
+    score.motion = core::MotionScore{.score = std::max(0.0, 2.0 * noise_(random_)),
+                                     .confirmed = std::max(0.0, noise_(random_) - 1.0),
+                                     .threshold = 4.5,
+                                     .carry = carry_};
     return as_stored(score);
   }
 
@@ -61,6 +67,7 @@ class Drive {
   std::uniform_int_distribution<int> beams_{640, 720};
   core::Stamp stamp_ = kBegin;
   double level_ = 0.0;
+  double carry_ = 0.0;
   int count_ = 0;
 };
 
