@@ -48,7 +48,7 @@ class Drive {
     level_ = 0.9 * level_ + 0.1 * noise_(random_);
     core::Score score{.stamp = stamp_,
                       .reference = reference,
-                      .threshold = 35.5 + static_cast<double>(count_++ / 100),
+                      .threshold = 35.5 + std::floor(count_++ / 100.0),
                       .state = core::RobotState::normal};
     score.dissimilarity.cost = std::exp(2.0 + level_ + 0.3 * noise_(random_));
     score.dissimilarity.cost_per_beam = score.dissimilarity.cost / beams_(random_);
