@@ -13,7 +13,8 @@ using adapters::mqtt::TopicKind;
 namespace {
 
 bool names_a_robot(TopicKind kind) {
-  return kind == TopicKind::scan || kind == TopicKind::odom || kind == TopicKind::command;
+  return kind == TopicKind::scan || kind == TopicKind::odom || kind == TopicKind::particles ||
+         kind == TopicKind::command;
 }
 
 void parse(const adapters::mqtt::Topics& topics, std::string_view text) {
