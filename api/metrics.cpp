@@ -60,6 +60,16 @@ MetricFamily scans(const core::OutcomeCounts& counts) {
   return result;
 }
 
+MetricFamily commands(const core::CommandCounts& counts) {
+  auto result = family(MetricType::Counter, "kidnapwatch_commands_total",
+                       "Commands that arrived by MQTT, by what became of them.");
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto name = core::name(static_cast<core::CommandResult>(i));
+    add(result, {{"result", std::string(name)}}, static_cast<double>(counts.at(i)));
+  }
+  return result;
+}
+
 MetricFamily robots(const std::vector<core::RobotStatus>& robots) {
   auto result = family(MetricType::Gauge, "kidnapwatch_robots", "Robots, by state.");
   for (const auto& [state, count] : robots_by_state(robots)) {
@@ -85,6 +95,7 @@ std::vector<MetricFamily> families(const Fleet& fleet) {
       single(gauge, "kidnapwatch_start_time_seconds", "When the service started, in Unix time.",
              core::elapsed_s(core::Stamp{}, status.started)),
       scans(status.counts),
+      commands(status.commands),
       robots(fleet.robots()),
       single(gauge, "kidnapwatch_queued_scans", "Scans that wait to be scored.",
              number(status.queued_scans)),

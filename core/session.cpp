@@ -118,11 +118,7 @@ std::optional<Outcome> Session::refusal(const Scan& scan) {
     if (!clock_was_set_back(scan.stamp)) {
       return Outcome::out_of_order;
     }
-    has_reference_ = false;
-    motion_.forget_scans();
-    suspicion_.reset();
-    quiet_since_.reset();
-    last_score_ = 0.0;
+    forget_scans();
   }
   old_stamps_ = 0;
   const bool blind = !is_comparable(scan);
@@ -131,6 +127,15 @@ std::optional<Outcome> Session::refusal(const Scan& scan) {
     trouble_ = Trouble::blind;
   }
   return blind ? std::optional(Outcome::not_comparable) : std::nullopt;
+}
+
+void Session::forget_scans() {
+  has_reference_ = false;
+  motion_.forget_scans();
+  suspicion_.reset();
+  quiet_since_.reset();
+  last_score_ = 0.0;
+  old_stamps_ = 0;
 }
 
 bool Session::clock_was_set_back(Stamp stamp) {

@@ -128,6 +128,9 @@ class Session {
   /// first.
   Observation observe(Scan& scan, Stamp arrival, DissimilarityWorkspace& workspace);
 
+  /// The next scan is the first again. What was learned is kept, and so is an open incident.
+  void forget_scans();
+
   /// Ends an open incident from outside: the robot knows where it is again. False if none is open.
   bool resolve();
 

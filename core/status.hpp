@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/outcome.hpp"
+#include "core/robot_command.hpp"
 #include "core/session.hpp"
 
 namespace kidnapwatch::core {
@@ -44,6 +45,7 @@ struct ServiceStatus {
   std::uint64_t lost_writes = 0;      ///< refused because the store's queue was full
   std::vector<Degradation> degraded;  ///< empty: all is well
   OutcomeCounts counts{};             ///< of all robots and of messages that belong to none
+  CommandCounts commands{};           ///< by MQTT
 };
 
 /// A configuration as somebody set it.

@@ -38,14 +38,14 @@ void Fleet::receive(const std::string& robot, Message message) {
   }
 }
 
-bool Fleet::change_incident(Order order) {
-  const auto found = member(order.stored.robot);
+bool Fleet::order(const std::string& robot, Order order) {
+  const auto found = member(robot);
   if (!found) {
     return false;
   }
   Message message{.payload = {}, .content_type = {}, .arrival = outside_.now()};
   message.kind = MessageKind::order;
-  message.order = std::make_shared<const Order>(std::move(order));
+  message.order = std::move(order);
   found->lane->push(*found->watch, std::move(message));
   return true;
 }

@@ -43,9 +43,9 @@ class Fleet {
   /// A scan of `robot`, which need not be known nor be a robot id; or what else it sends, ignored
   /// until it sent a scan.
   void receive(const std::string& robot, Message message);
-  /// Has the robot of `order.stored` carry it out, on its lane. False if there is no room for
-  /// another robot.
-  bool change_incident(Order order);
+  /// Has it done on the robot's lane, or destroyed undone where its queue is full of orders. False
+  /// if there is no room for another robot.
+  bool order(const std::string& robot, Order order);
   /// A message that belongs to no robot.
   void count(core::Outcome outcome);
   /// Finishes what is queued. No call of receive() may follow.

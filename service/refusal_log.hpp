@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refused scans in the log, without filling it.
+// Refused scans and commands in the log, without filling it.
 #pragma once
 
 #include <bit>
@@ -21,7 +21,7 @@ class RefusalLog {
     const std::lock_guard lock(mutex_);
     const std::uint64_t count = ++counts_[robot];
     if (std::has_single_bit(count)) {
-      spdlog::warn("robot {}: refused scan {}: {}", robot, count, why.what());
+      spdlog::warn("robot {}: refused message {}: {}", robot, count, why.what());
     }
   }
 

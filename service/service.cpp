@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -18,9 +17,11 @@
 #include "api/routes.hpp"
 #include "api/server.hpp"
 #include "service/announcements.hpp"
+#include "service/command_desk.hpp"
 #include "service/fleet.hpp"
 #include "service/health.hpp"
 #include "service/ids.hpp"
+#include "service/orders.hpp"
 #include "service/outbox.hpp"
 #include "service/refusal_log.hpp"
 #include "service/rounds.hpp"
@@ -38,7 +39,6 @@ using core::Outcome;
 
 constexpr std::chrono::seconds kRoundEvery{1};
 constexpr std::uint64_t kRoundsBetweenRepeats = 5;
-constexpr std::chrono::seconds kPatience{5};  // of a request, with a lane and with the store
 
 core::Stamp now() {
   return std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now());
@@ -98,13 +98,16 @@ class Service::Parts final : public api::Fleet {
     return fleet_.put_config(config, seen_version, author);
   }
   std::optional<core::Incident> change_incident(const std::string& id,
-                                                const core::IncidentCommand& command) override;
+                                                const core::IncidentCommand& command) override {
+    return orders_.change(id, command);
+  }
 
  private:
   [[nodiscard]] mqtt::LinkConfig link_config() const;
   [[nodiscard]] mqtt::LinkEvents link_events();
   [[nodiscard]] Outbox::Ways outbox_ways();
   [[nodiscard]] service::Fleet::Outside outside();
+  [[nodiscard]] CommandDesk::Ways desk_ways();
   [[nodiscard]] api::Guard::Lookup token_lookup() const;
   void resume_robots();
   void receive(const mqtt::Topic& topic, const mqtt::Received& message);
@@ -116,7 +119,6 @@ class Service::Parts final : public api::Fleet {
   const Settings settings_;
   const core::Stamp started_ = now();
   RefusalLog log_refusal_;
-  std::mutex change_mutex_;  // one change of an incident at a time
   Ids ids_{random_seed()};
   storage::Writer writer_;
   const storage::Archive archive_;
@@ -125,6 +127,8 @@ class Service::Parts final : public api::Fleet {
   Outbox outbox_;
   Announcements announcements_;
   service::Fleet fleet_;
+  Orders orders_{fleet_, archive_, writer_};
+  CommandDesk desk_{desk_ways()};
   mutable std::mutex health_mutex_;  // over health_
   mutable Health health_;
   std::vector<core::Degradation> degraded_;  // as last told; used by rounds_ only
@@ -222,6 +226,23 @@ service::Fleet::Outside Service::Parts::outside() {
               }};
 }
 
+CommandDesk::Ways Service::Parts::desk_ways() {
+  return {.knows = [this](const auto& robot) { return fleet_.robot(robot).has_value(); },
+          .stored = [this](const auto& id) { return archive_.incident(id); },
+          .change = [this](const auto& id, const auto& what) { return orders_.change(id, what); },
+          .change_open = [this](const auto& robot,
+                                const auto& what) { return orders_.change_open(robot, what); },
+          .forget_scans = [this](const auto& robot) { orders_.forget_scans(robot); },
+          .publish =
+              [this](const auto& letter, const std::string& answer) {
+                return link_.publish_response(letter.robot, letter.response_topic, answer,
+                                              std::string(codecs::kAnswerSchema),
+                                              letter.correlation);
+              },
+          .log_refusal = [this](const std::string& robot,
+                                const core::BadInput& why) { log_refusal_(robot, why); }};
+}
+
 api::Guard::Lookup Service::Parts::token_lookup() const {
   if (!needs_tokens(settings_)) {
     return nullptr;
@@ -233,36 +254,6 @@ api::Guard::Lookup Service::Parts::token_lookup() const {
       throw std::runtime_error(unusable.what());
     }
   };
-}
-
-/// One at a time, and durable before the next: each sees what the one before it stored.
-std::optional<core::Incident> Service::Parts::change_incident(
-    const std::string& id, const core::IncidentCommand& command) {
-  const std::lock_guard one_at_a_time(change_mutex_);
-  auto stored = archive_.incident(id);
-  if (!stored) return std::nullopt;
-  const auto done = std::make_shared<std::promise<std::optional<core::Incident>>>();
-  auto changed = done->get_future();
-  const bool is_taken = fleet_.change_incident(
-      {.stored = std::move(*stored), .command = command, .on_done = [done](const auto& incident) {
-         done->set_value(incident);
-       }});
-  if (!is_taken || changed.wait_for(kPatience) != std::future_status::ready) {
-    throw api::Unavailable("the robot's lane is too busy");
-  }
-  try {
-    auto result = changed.get();
-    auto stored_now = writer_.flush();
-    if (stored_now.wait_for(kPatience) != std::future_status::ready) {
-      throw api::Unavailable("the store is too slow: the change is made, but not stored yet");
-    }
-    stored_now.get();
-    return result;
-  } catch (const std::future_error&) {
-    throw api::Unavailable("the robot's queue is full of orders");
-  } catch (const storage::StorageError& error) {
-    throw api::Unavailable(std::string("the change is made, but not stored yet: ") + error.what());
-  }
 }
 
 void Service::Parts::resume_robots() {
@@ -297,6 +288,12 @@ void Service::Parts::receive(const mqtt::Topic& topic, const mqtt::Received& mes
       fleet_.count(Outcome::unknown_topic);
       break;
     case mqtt::TopicKind::command:
+      desk_.take({.robot = std::string(topic.robot),
+                  .payload = message.payload,
+                  .response_topic = std::string(message.response_topic),
+                  .correlation = std::string(message.correlation),
+                  .retained = message.retained});
+      break;
     case mqtt::TopicKind::own:
       break;
   }
@@ -363,6 +360,7 @@ core::ServiceStatus Service::Parts::status() const {
   core::ServiceStatus status;
   fleet_.describe(status);
   status.version = KW_VERSION;
+  status.commands = desk_.counts();
   status.started = started_;
   status.broker_connected = link_.connected();
   status.store_healthy = writer_.healthy();
@@ -375,6 +373,7 @@ core::ServiceStatus Service::Parts::status() const {
 void Service::Parts::stop() {
   rounds_.stop();
   link_.stop_receiving();
+  desk_.stop();
   fleet_.stop();
   link_.stop(std::chrono::seconds(5));
   server_.reset();

@@ -68,7 +68,7 @@ void Watch::take(const Message& message, Bench& bench) {
     return;
   }
   if (message.kind == MessageKind::order) {
-    carry_out(*message.order);
+    message.order(*this);
     return;
   }
   const core::Stamp arrival = message.arrival;
@@ -111,29 +111,43 @@ void Watch::take_particles(const Message& message, Bench& bench) {
   }
 }
 
-void Watch::carry_out(const Order& order) {
+std::optional<core::Incident> Watch::carry_out(const core::Incident& stored,
+                                               const core::IncidentCommand& command) {
   const core::Stamp now = around_.now();
-  const bool is_latest = order.stored.id == incident_.id;
-  const core::Incident& before = is_latest ? incident_ : order.stored;
-  auto result = core::changed(before, order.command, now);
-  if (result && result->incident.seq != before.seq) {
+  const bool is_latest = stored.id == incident_.id;
+  const core::Incident before = is_latest ? incident_ : stored;
+  const auto result = core::changed(before, command, now);
+  if (!result) {
+    return std::nullopt;
+  }
+  if (result->incident.seq != before.seq) {
     around_.announcer.announce_alert({.event_id = around_.new_id(now),
                                       .type = result->type,
                                       .timestamp = now,
                                       .incident = result->incident,
-                                      .author = order.command.author},
+                                      .author = command.author},
                                      std::nullopt);
   }
-  const bool ends = result && is_latest && result->incident.state == core::IncidentState::resolved;
-  if (result && is_latest) {
+  if (is_latest) {
     incident_ = result->incident;
   }
+  const bool ends = is_latest && incident_.state == core::IncidentState::resolved;
   if (ends && std::exchange(incident_open_, false)) {
     session_.resolve();
     refresh_status(status().last_arrival);
     around_.announcer.announce_state(status(), now);
   }
-  order.on_done(result ? std::optional(std::move(result->incident)) : std::nullopt);
+  return result->incident;
+}
+
+std::optional<core::Incident> Watch::open_incident() const {
+  return incident_open_ ? std::optional(incident_) : std::nullopt;
+}
+
+void Watch::forget_scans() {
+  session_.forget_scans();
+  odometry_ = {};
+  refresh_status(status().last_arrival);
 }
 
 void Watch::end_shelving(core::Stamp now) {

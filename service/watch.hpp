@@ -22,13 +22,10 @@
 
 namespace kidnapwatch::service {
 
-/// What somebody wants done to an incident of a robot; done on the robot's lane.
-struct Order {
-  core::Incident stored;  ///< unless the watch knows it better
-  core::IncidentCommand command;
-  /// Told the incident after it; nothing where its state did not allow it.
-  std::function<void(const std::optional<core::Incident>&)> on_done;
-};
+class Watch;
+
+/// What somebody wants of a robot's watch; done on the robot's lane.
+using Order = std::function<void(Watch&)>;
 
 enum class MessageKind : std::uint8_t { scan, odometry, particles, order };
 
@@ -38,7 +35,7 @@ struct Message {
   std::string content_type;                    ///< MQTT 5; empty if the publisher told none
   core::Stamp arrival;
   MessageKind kind = MessageKind::scan;
-  std::shared_ptr<const Order> order = {};  ///< of that kind
+  Order order = {};  ///< of that kind
 };
 
 /// What a thread needs to take scans, whatever robot they are of. It holds no state of a robot.
@@ -93,6 +90,14 @@ class Watch {
   /// On the robot's lane: one scan, to its end; or odometry, kept for the scans that have none; or
   /// particles, for the next one.
   void take(const Message& message, Bench& bench);
+  /// On the robot's lane: the incident after the command, which passed check(); nothing where its
+  /// state does not allow it. `stored` is what the store has of it, unless the watch knows better.
+  std::optional<core::Incident> carry_out(const core::Incident& stored,
+                                          const core::IncidentCommand& command);
+  /// On the robot's lane.
+  [[nodiscard]] std::optional<core::Incident> open_incident() const;
+  /// On the robot's lane: the next scan is compared with none before it.
+  void forget_scans();
   /// On the robot's lane, now and then: tells when the robot fell silent.
   void tick();
   /// On the robot's lane, or after its end: hands over what was learned since it was last.
@@ -105,7 +110,6 @@ class Watch {
 
  private:
   void take_odometry(const Message& message, Bench& bench);
-  void carry_out(const Order& order);
   void end_shelving(core::Stamp now);
   [[nodiscard]] core::Outcome outcome_of(const Message& message, Bench& bench);
   void take_particles(const Message& message, Bench& bench);

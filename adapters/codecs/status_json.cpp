@@ -8,14 +8,17 @@
 namespace kidnapwatch::adapters::codecs {
 namespace {
 
-/// Every outcome by its name, zeros too: a reader never has to ask whether one is known.
-Json json(const core::OutcomeCounts& counts) {
+/// Every one by its name, zeros too: a reader never has to ask whether one is known.
+template <typename Enum, std::size_t N>
+Json by_name(const std::array<std::uint64_t, N>& counts) {
   Json object = Json::object();
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    object[std::string(core::name(static_cast<core::Outcome>(i)))] = counts.at(i);
+  for (std::size_t i = 0; i < N; ++i) {
+    object[std::string(core::name(static_cast<Enum>(i)))] = counts.at(i);
   }
   return object;
 }
+
+Json json(const core::OutcomeCounts& counts) { return by_name<core::Outcome>(counts); }
 
 Json json(const std::vector<core::Degradation>& degraded) {
   Json list = Json::array();
@@ -55,7 +58,8 @@ Json json(const core::ServiceStatus& service) {
           {"queuedWrites", service.queued_writes},
           {"lostWrites", service.lost_writes},
           {"degraded", json(service.degraded)},
-          {"scans", json(service.counts)}};
+          {"scans", json(service.counts)},
+          {"commands", by_name<core::CommandResult>(service.commands)}};
 }
 
 }  // namespace kidnapwatch::adapters::codecs

@@ -89,6 +89,9 @@ class Listener final : public paho::iaction_listener {
   if (!message.schema.empty()) {
     properties.add({paho::property::USER_PROPERTY, "schema", message.schema});
   }
+  if (!message.correlation.empty()) {
+    properties.add({paho::property::CORRELATION_DATA, message.correlation});
+  }
   if (message.expiry) {
     properties.add({paho::property::MESSAGE_EXPIRY_INTERVAL,
                     static_cast<std::int32_t>(message.expiry->count())});
@@ -109,25 +112,30 @@ class Listener final : public paho::iaction_listener {
          topic.find_first_of(kForbidden) == std::string_view::npos;
 }
 
-[[nodiscard]] std::string content_type(const paho::message& message) {
+/// Empty where the message has none.
+[[nodiscard]] std::string text(const paho::message& message, paho::property::code code) {
   const paho::properties& properties = message.get_properties();
-  return properties.contains(paho::property::CONTENT_TYPE)
-             ? paho::get<std::string>(properties, paho::property::CONTENT_TYPE)
-             : std::string();
+  return properties.contains(code) ? paho::get<std::string>(properties, code) : std::string();
 }
 
 void pass_on(const paho::const_message_ptr& message,
              const std::function<void(const Received&)>& on_message) {
   static const auto kNothing = std::make_shared<const std::string>();
   const auto& payload = message->get_payload_ref().ptr();
-  const std::string type = content_type(*message);
+  const std::string type = text(*message, paho::property::CONTENT_TYPE);
+  const std::string response_topic = text(*message, paho::property::RESPONSE_TOPIC);
+  const std::string correlation = text(*message, paho::property::CORRELATION_DATA);
   on_message({.topic = message->get_topic(),
               .payload = payload ? payload : kNothing,
               .content_type = type,
+              .response_topic = response_topic,
+              .correlation = correlation,
               .retained = message->is_retained()});
 }
 
-[[nodiscard]] void* as_context(std::uint64_t ticket) { return reinterpret_cast<void*>(ticket); }
+[[nodiscard]] void* as_context(std::uint64_t ticket) {
+  return reinterpret_cast<void*>(ticket);  // NOLINT(performance-no-int-to-ptr): Paho hands it back
+}
 
 [[nodiscard]] std::uint64_t ticket_of(const paho::token& token) {
   return reinterpret_cast<std::uint64_t>(token.get_user_context());
@@ -180,9 +188,10 @@ Connection::Connection(const ClientConfig& config, int protocol, const Connectio
 Connection::~Connection() = default;
 
 void Connection::subscribe() {
+  const paho::subscribe_options as_sent(false, true);  // keeps `retained`; of MQTT 5 only
   for (const auto& [filter, qos] : paho_->config.subscriptions) {
     try {
-      paho_->client.subscribe(filter, qos, nullptr, paho_->subscribing);
+      paho_->client.subscribe(filter, qos, nullptr, paho_->subscribing, as_sent);
     } catch (const paho::exception&) {
       return;  // the connection is gone again, which its own event tells
     }

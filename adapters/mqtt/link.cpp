@@ -82,6 +82,7 @@ void Link::publish_alert(std::string_view robot, std::string payload, std::strin
                 .retain = false,
                 .content_type = config_.content_type,
                 .schema = std::move(schema),
+                .correlation = {},
                 .expiry = config_.alert_expiry,
                 .on_delivered = std::move(on_delivered)});
 }
@@ -93,8 +94,26 @@ void Link::publish_state(std::string_view robot, std::string payload, std::strin
                 .retain = true,
                 .content_type = config_.content_type,
                 .schema = std::move(schema),
+                .correlation = {},
                 .expiry = {},
                 .on_delivered = {}});
+}
+
+bool Link::publish_response(std::string_view robot, std::string_view topic, std::string payload,
+                            std::string schema, std::string_view correlation) noexcept {
+  if (!topics_.may_answer(robot, topic)) {
+    return false;
+  }
+  out_.publish({.topic = std::string(topic),
+                .payload = std::move(payload),
+                .qos = 1,
+                .retain = false,
+                .content_type = config_.content_type,
+                .schema = std::move(schema),
+                .correlation = std::string(correlation),
+                .expiry = {},
+                .on_delivered = {}});
+  return true;
 }
 
 void Link::publish_score(std::string_view robot, std::string payload, std::string schema) noexcept {
@@ -104,6 +123,7 @@ void Link::publish_score(std::string_view robot, std::string payload, std::strin
                 .retain = false,
                 .content_type = config_.content_type,
                 .schema = std::move(schema),
+                .correlation = {},
                 .expiry = {},
                 .on_delivered = {}});
 }

@@ -51,6 +51,10 @@ class Link {
   void publish_state(std::string_view robot, std::string payload, std::string schema) noexcept;
   /// Retained on service/status from now on, as long as the service is there.
   void publish_online(std::string payload) noexcept;
+  /// The answer to a command to `robot`, with its correlation data. False, and nothing is sent,
+  /// where Topics::may_answer says so.
+  bool publish_response(std::string_view robot, std::string_view topic, std::string payload,
+                        std::string schema, std::string_view correlation) noexcept;
   /// May be lost.
   void publish_score(std::string_view robot, std::string payload, std::string schema) noexcept;
 

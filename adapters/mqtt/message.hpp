@@ -11,7 +11,7 @@
 
 namespace kidnapwatch::adapters::mqtt {
 
-/// A message to publish. The last three fields before the callback are properties of MQTT 5, left
+/// A message to publish. The last four fields before the callback are properties of MQTT 5, left
 /// out where the broker speaks 3.1.1.
 struct Message {
   std::string topic;
@@ -19,7 +19,8 @@ struct Message {
   int qos = 0;  ///< 0: may be lost; 1: arrives at least once
   bool retain = false;
   std::string content_type;
-  std::string schema;  ///< user property `schema`
+  std::string schema;       ///< user property `schema`
+  std::string correlation;  ///< correlation data, with a response
   std::optional<std::chrono::seconds> expiry;
   /// Called once, on Paho's thread, when the broker has confirmed it (QoS 1) or it was sent (QoS
   /// 0); never if it was lost or refused. Does not block.
@@ -32,7 +33,9 @@ struct Received {
   std::string_view topic;
   std::shared_ptr<const std::string> payload;  ///< never null
   std::string_view content_type;               ///< empty unless by MQTT 5
-  bool retained = false;                       ///< sent before we subscribed
+  std::string_view response_topic;             ///< where an answer is awaited; MQTT 5
+  std::string_view correlation;                ///< to be sent back with it; any bytes
+  bool retained = false;                       ///< sent before we subscribed, or to be kept
 };
 
 }  // namespace kidnapwatch::adapters::mqtt

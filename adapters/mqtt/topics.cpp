@@ -49,7 +49,8 @@ void check_filter(std::string_view filter) {
   if (level == "command") {
     return TopicKind::command;
   }
-  const bool own = level == "alert" || level == "state" || level == "score";
+  const bool own = level == "alert" || level == "state" || level == "score" ||
+                   level == "response" || level.starts_with("response/");
   return own ? TopicKind::own : TopicKind::unknown;
 }
 
@@ -86,6 +87,14 @@ std::vector<std::string> Topics::filters() const {
     filters.emplace_back(before).append("+").append(after);
   }
   return filters;
+}
+
+bool Topics::may_answer(std::string_view robot, std::string_view topic) const {
+  if (topic.empty() || !topic.starts_with(prefix_)) {
+    return !topic.empty();
+  }
+  const std::string own = of(robot, "response");
+  return topic == own || topic.starts_with(own + "/");
 }
 
 Topic Topics::below_prefix(std::string_view rest) const {

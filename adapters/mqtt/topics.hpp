@@ -14,7 +14,7 @@ enum class TopicKind : std::uint8_t {
   odom,
   particles,
   command,
-  own,           ///< one that the service publishes: alert, state, score, service/status
+  own,           ///< one that the service publishes: alert, state, score, response, service/status
   bad_robot_id,  ///< of one of the kinds above, but with a robot id that is none
   unknown,
 };
@@ -46,6 +46,11 @@ class Topics {
   [[nodiscard]] std::string score(std::string_view robot) const { return of(robot, "score"); }
   [[nodiscard]] std::string command(std::string_view robot) const { return of(robot, "command"); }
   [[nodiscard]] std::string service_status() const { return of("service", "status"); }
+
+  /// Whether a command to `robot` may ask for its answer on `topic`: on {prefix}/{robot}/response
+  /// or below it, or away from the prefix, where the broker's ACL says what the service may do.
+  /// Else a robot could have the service speak in its own name, or another's.
+  [[nodiscard]] bool may_answer(std::string_view robot, std::string_view topic) const;
 
   /// All that is to be subscribed to: everything below the prefix, so that messages on unknown
   /// topics can be counted, and the scan filters.

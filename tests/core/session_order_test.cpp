@@ -47,6 +47,13 @@ TEST_F(SessionOrder, BelievesAClockThatWasSetBack) {
   EXPECT_EQ(session_.state(at_s(1.6)), RobotState::normal);
 }
 
+TEST_F(SessionOrder, ComparesWithNothingOnceItForgot) {
+  observe(2.0, 1000.0);
+  session_.forget_scans();
+  EXPECT_EQ(observe(8.0, 1.0).outcome, Outcome::first);
+  EXPECT_EQ(judged(8.0, 1.2).score.state, RobotState::normal);
+}
+
 TEST_F(SessionOrder, DoesNotBelieveOldScansThatDoNotGoOn) {
   observe(2.0, 1000.0);
   for (int replay = 0; replay < 5; ++replay) {

@@ -20,7 +20,8 @@ class BrokerAccess : public ::testing::Test {
        "done; cat robots-ca.crt operators-ca.crt > trusted.crt");
     certify("broker", "operators", "127.0.0.1");
     for (const char* robot : {"r1", "r2", "kidnapwatch-out"}) certify(robot, "robots", robot);
-    for (const char* user : {"kidnapwatch", "dashboard"}) certify(user, "operators", user);
+    for (const char* user : {"kidnapwatch", "dashboard", "controller"})
+      certify(user, "operators", user);
     start_broker();
   }
 
@@ -113,6 +114,20 @@ TEST_F(BrokerAccess, ARobotSpeaksForItselfAndForNobodyElse) {
   EXPECT_TRUE(publish("r1", robots_port_, "kidnapwatch/v1/r1/scan", "its own"));
   ASSERT_TRUE(eventually([&] { return heard("kidnapwatch/v1/r1/scan its own"); }));
   EXPECT_FALSE(heard("as another"));
+  EXPECT_FALSE(heard("forged"));
+}
+
+TEST_F(BrokerAccess, CommandsComeFromTheRobotItselfAndTheController) {
+  listen();
+  EXPECT_TRUE(publish("r1", robots_port_, "kidnapwatch/v1/r2/command", "as another"));
+  EXPECT_TRUE(publish("dashboard", operators_port_, "kidnapwatch/v1/r1/command", "as a watcher"));
+  EXPECT_TRUE(publish("r1", robots_port_, "kidnapwatch/v1/r1/response", "forged"));
+  EXPECT_TRUE(publish("r1", robots_port_, "kidnapwatch/v1/r1/command", "its own"));
+  EXPECT_TRUE(publish("controller", operators_port_, "kidnapwatch/v1/r1/command", "from above"));
+  ASSERT_TRUE(eventually([&] { return heard("kidnapwatch/v1/r1/command from above"); }));
+  EXPECT_TRUE(heard("kidnapwatch/v1/r1/command its own"));
+  EXPECT_FALSE(heard("as another"));
+  EXPECT_FALSE(heard("as a watcher"));
   EXPECT_FALSE(heard("forged"));
 }
 

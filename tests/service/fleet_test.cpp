@@ -147,12 +147,7 @@ TEST_F(FleetTest, AnOrderIsCarriedOutHoweverManyScansComeAfterIt) {
   const auto order = [&] {
     const auto promise = std::make_shared<std::promise<void>>();
     done.push_back(promise->get_future());
-    core::Incident incident;
-    incident.robot = "loud";
-    EXPECT_TRUE(fleet.change_incident(
-        {.stored = incident, .command = {.author = "test"}, .on_done = [promise](const auto&) {
-           promise->set_value();
-         }}));
+    EXPECT_TRUE(fleet.order("loud", [promise](Watch&) { promise->set_value(); }));
   };
   for (int i = 0; i < 4; ++i) order();
   for (int i = 3; i < 13; ++i) {

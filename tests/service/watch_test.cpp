@@ -185,9 +185,9 @@ class IncidentOrders : public WatchTest {
     command.label = core::IncidentLabel::false_alarm;
     std::optional<core::Incident> changed;
     message.kind = MessageKind::order;
-    message.order = std::make_shared<const Order>(
-        Order{stored.value_or(heard_.alerts().back().incident), command,
-              [&](const std::optional<core::Incident>& incident) { changed = incident; }});
+    message.order = [&](Watch& watch) {
+      changed = watch.carry_out(stored.value_or(heard_.alerts().back().incident), command);
+    };
     watch_.take(message, bench_);
     return changed;
   }
@@ -245,6 +245,28 @@ TEST_F(IncidentOrders, OfAnEarlierIncidentLeaveTheRobotAlone) {
   EXPECT_EQ(order(core::IncidentAction::resolve, earlier)->seq, 8U);
   EXPECT_EQ(watch_.status().state, core::RobotState::kidnapped);
   EXPECT_EQ(told(), "opened1 resolved8 ");
+}
+
+TEST_F(IncidentOrders, KnowTheOpenIncident) {
+  ASSERT_TRUE(watch_.open_incident());
+  EXPECT_EQ(*watch_.open_incident(), heard_.alerts().back().incident);
+  (void)order(core::IncidentAction::resolve);
+  EXPECT_FALSE(watch_.open_incident());
+}
+
+TEST_F(WatchTest, ComparesWithNothingAfterItForgot) {
+  drive(2.0, 3);
+  watch_.forget_scans();
+  drive(6.0, 3);
+  EXPECT_TRUE(heard_.alerts().empty());
+  EXPECT_EQ(counted(Outcome::first), 2U);
+}
+
+TEST_F(IncidentOrders, ForgettingScansLeavesTheIncidentOpen) {
+  watch_.forget_scans();
+  drive(2.0, 3);
+  EXPECT_EQ(watch_.status().state, core::RobotState::kidnapped);
+  EXPECT_EQ(told(), "opened1 ");
 }
 
 TEST_F(WatchTest, KeepsWhatItLearnedNowAndThen) {

@@ -56,6 +56,9 @@ TEST(StatusJson, SpellsTheService) {
   service.degraded = {{"clock", "the clock jumped"}};
   Json spelled = json(service);
   spelled.erase("scans");
+  EXPECT_EQ(spelled["commands"].size(), core::kCommandResults);
+  EXPECT_EQ(spelled["commands"]["no_incident"], 0);
+  spelled.erase("commands");
   EXPECT_EQ(text(spelled),
             R"({"version":"0.1.0","startedAt":"1970-01-01T00:00:00.000000000Z","robots":2,)"
             R"("brokerConnected":true,"storeHealthy":false,"queuedScans":3,"queuedWrites":4,)"

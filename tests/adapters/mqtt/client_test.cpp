@@ -80,13 +80,14 @@ TEST_F(RunningClientTest, DeliversWithPropertiesByMqtt5) {
   Message sent = message("a/b", std::string("\0\xFF", 2));
   sent.content_type = "application/cbor";
   sent.schema = "kidnapwatch/alert/1";
+  sent.correlation = std::string("\0\x01", 2);
   sent.expiry = 60s;
   sent.on_delivered = [&] { delivered.count_down(); };
   peer.client.publish(std::move(sent));
   delivered.wait();
   ASSERT_TRUE(peer.inbox.wait_count(1));
-  EXPECT_EQ(peer.inbox.letters()[0],
-            (Letter{"a/b", std::string("\0\xFF", 2), "application/cbor", false}));
+  EXPECT_EQ(peer.inbox.letters()[0], (Letter{"a/b", std::string("\0\xFF", 2), "application/cbor",
+                                             false, "", std::string("\0\x01", 2)}));
   EXPECT_EQ(peer.client.stats().protocol, 5);
 }
 

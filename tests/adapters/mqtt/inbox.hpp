@@ -24,6 +24,8 @@ struct Letter {
   std::string payload;
   std::string content_type;
   bool retained = false;
+  std::string response_topic = {};
+  std::string correlation = {};
 
   friend bool operator==(const Letter&, const Letter&) = default;
 };
@@ -33,7 +35,8 @@ class Inbox {
   void add(const Received& received) {
     note([&] {
       letters_.push_back({std::string(received.topic), *received.payload,
-                          std::string(received.content_type), received.retained});
+                          std::string(received.content_type), received.retained,
+                          std::string(received.response_topic), std::string(received.correlation)});
     });
   }
   void clear() {

@@ -130,6 +130,30 @@ TEST_F(LinkTest, PublishesInOrderAndTellsOfDelivery) {
   EXPECT_EQ(payloads, (std::vector<std::string>{"suspect", "opened", "kidnapped"}));
 }
 
+TEST_F(LinkTest, TellsWhatIsRetainedEvenAsItIsSaid) {
+  start_peer();
+  Link link(config_for(broker_.url()), events());
+  link.start();
+  await_link(link);
+  Message kept = message("kidnapwatch/v1/r1/command", "kept");
+  kept.retain = true;
+  peer_->publish(std::move(kept));
+  ASSERT_TRUE(letters_.wait_payload("kept"));
+  EXPECT_TRUE(letters_.letters().back().retained);
+}
+
+TEST_F(LinkTest, AnswersWhereThatIsAllowed) {
+  start_peer();
+  Link link(config_for(broker_.url()), events());
+  link.start();
+  await_link(link);
+  EXPECT_FALSE(link.publish_response("r1", "kidnapwatch/v1/r2/alert", "forged", "s", "7"));
+  EXPECT_TRUE(link.publish_response("r1", "kidnapwatch/v1/r1/response", "done", "s", "7"));
+  ASSERT_TRUE(seen_.wait_payload("done"));
+  EXPECT_EQ(seen_.letters().back().correlation, "7");
+  EXPECT_EQ(std::ranges::count(seen_.letters(), "forged", &Letter::payload), 0);
+}
+
 TEST_F(LinkTest, RetainsStateAndStatusForThoseWhoComeLater) {
   Link link(config_for(broker_.url()), events());
   link.start();

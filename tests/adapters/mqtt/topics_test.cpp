@@ -45,8 +45,21 @@ TEST(Topics, TellKindAndRobot) {
 
 TEST(Topics, KnowTheirOwn) {
   for (const char* topic : {"kidnapwatch/v1/r1/alert", "kidnapwatch/v1/r1/state",
-                            "kidnapwatch/v1/r1/score", "kidnapwatch/v1/service/status"}) {
+                            "kidnapwatch/v1/r1/score", "kidnapwatch/v1/r1/response",
+                            "kidnapwatch/v1/r1/response/ann", "kidnapwatch/v1/service/status"}) {
     expect_parsed(topic, TopicKind::own);
+  }
+}
+
+TEST(Topics, AnswerNowhereInAnothersName) {
+  for (const char* topic : {"kidnapwatch/v1/r1/response", "kidnapwatch/v1/r1/response/ann",
+                            "ann/answers", "kidnapwatch/v2/r1/alert"}) {
+    EXPECT_TRUE(kTopics.may_answer("r1", topic)) << topic;
+  }
+  for (const char* topic :
+       {"", "kidnapwatch/v1/r1/alert", "kidnapwatch/v1/r2/response", "kidnapwatch/v1/r1/responses",
+        "kidnapwatch/v1/service/status", "kidnapwatch/v1/"}) {
+    EXPECT_FALSE(kTopics.may_answer("r1", topic)) << topic;
   }
 }
 
