@@ -108,7 +108,7 @@ std::vector<MetricFamily> families(const Fleet& fleet) {
       single(gauge, "kidnapwatch_store_healthy", "1 while the store takes writes.",
              number(status.store_healthy)),
       single(gauge, "kidnapwatch_config_version", "Version of the detection configuration.",
-             number(fleet.config().version)),
+             number(fleet.config("").effective.version)),
   };
 }
 

@@ -9,11 +9,39 @@
 #include <string>
 #include <vector>
 
+#include "adapters/codecs/json.hpp"
 #include "core/incident.hpp"
 #include "core/incident_command.hpp"
 #include "core/status.hpp"
 
 namespace kidnapwatch::api {
+
+using adapters::codecs::Json;
+
+/// A level of the configuration as somebody set it: the fleet's, or a robot's.
+struct ConfigChange {
+  std::int64_t version = 0;  ///< counts the changes of all levels, from 1
+  core::Stamp since;
+  std::string author;
+  std::string robot;             ///< empty: the fleet's level
+  Json values = Json::object();  ///< what is left out is inherited
+
+  friend bool operator==(const ConfigChange&, const ConfigChange&) = default;
+};
+
+/// What is in force, and why: defaults <- fleet <- robot.
+struct ConfigView {
+  core::ConfigVersion effective;  ///< its version is that of the latest change that bears on it
+  Json fleet = Json::object();    ///< the values that the fleet's level sets
+  Json robot = Json::object();    ///< the values that the robot's level sets
+};
+
+/// Which changes of the configuration, newest first.
+struct ConfigQuery {
+  std::optional<std::string> robot;    ///< of this level; empty: the fleet's
+  std::optional<std::int64_t> before;  ///< only earlier versions
+  std::size_t limit = 100;
+};
 
 /// Thrown by put_config where the configuration is not the version that the caller saw.
 struct VersionConflict {
@@ -33,12 +61,14 @@ class Fleet {
   [[nodiscard]] virtual std::vector<core::RobotStatus> robots() const = 0;
   [[nodiscard]] virtual std::optional<core::RobotStatus> robot(const std::string& id) const = 0;
   [[nodiscard]] virtual core::ServiceStatus status() const = 0;
-  [[nodiscard]] virtual core::ConfigVersion config() const = 0;
-  /// Takes effect with every robot's next scan. Durable once it returned. Throws BadInput for
-  /// values out of range, VersionConflict if `seen_version` is given and not the current one.
-  virtual core::ConfigVersion put_config(const core::DetectionConfig& config,
-                                         std::optional<std::int64_t> seen_version,
-                                         const std::string& author) = 0;
+  /// Of this robot; of robots without a level of their own if `robot` is empty.
+  [[nodiscard]] virtual ConfigView config(const std::string& robot) const = 0;
+  /// Sets the level of this robot, or the fleet's if `robot` is empty, to exactly these values.
+  /// Takes effect with the next scan, is durable once it returned. Throws BadInput naming the
+  /// member that is unknown, or out of range for this robot or any that inherits it;
+  /// VersionConflict unless `seen_version` is that of config(robot).
+  virtual ConfigView put_config(const std::string& robot, const Json& values,
+                                std::int64_t seen_version, const std::string& author) = 0;
   /// The incident after a command that passed check(), as it is stored; nothing where its state
   /// does not allow it, or there is none. Throws Unavailable.
   virtual std::optional<core::Incident> change_incident(const std::string& id,
@@ -72,6 +102,7 @@ class History {
   [[nodiscard]] virtual std::optional<core::Incident> incident(const std::string& id) const = 0;
   [[nodiscard]] virtual std::optional<core::Evidence> evidence(
       const std::string& incident_id) const = 0;
+  [[nodiscard]] virtual std::vector<ConfigChange> configs(const ConfigQuery& query) const = 0;
 };
 
 }  // namespace kidnapwatch::api

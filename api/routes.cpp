@@ -33,6 +33,14 @@ constexpr std::array kRoutes{
     Route{"POST", "/api/v1/incidents/{id}/label", "", Role::operator_, post_incident},
     Route{"GET", "/api/v1/config", "", Role::viewer, get_config},
     Route{"PUT", "/api/v1/config", "", Role::admin, put_config},
+    Route{"PATCH", "/api/v1/config", "", Role::admin, patch_config},
+    Route{"DELETE", "/api/v1/config", "", Role::admin, delete_config},
+    Route{"GET", "/api/v1/config/history", "robot cursor limit", Role::viewer, get_config_history},
+    Route{"POST", "/api/v1/config/history/{id}/restore", "", Role::admin, restore_config},
+    Route{"GET", "/api/v1/robots/{id}/config", "", Role::viewer, get_config},
+    Route{"PUT", "/api/v1/robots/{id}/config", "", Role::admin, put_config},
+    Route{"PATCH", "/api/v1/robots/{id}/config", "", Role::admin, patch_config},
+    Route{"DELETE", "/api/v1/robots/{id}/config", "", Role::admin, delete_config},
     Route{"GET", "/api/v1/service", "", Role::viewer, get_service},
     Route{"GET", "/api/v1/openapi.json", "", kAnybody, get_openapi},
     Route{"GET", "/healthz", "", kAnybody, get_health},
@@ -68,12 +76,18 @@ void refuse_unknown_parameters(const Call& call, std::string_view known) {
   }
 }
 
+/// Whether the content, where the method has some, is what routes take.
+bool has_json(const Call& call, std::string_view method) {
+  const auto type = header(call.request, "Content-Type");
+  return method == "GET" || method == "DELETE" || is_media_type(type, "application/json") ||
+         (method == "PATCH" && is_media_type(type, "application/merge-patch+json"));
+}
+
 Response call_route(const Route& route, const Call& call) {
   if (route.needs && call.caller.role < *route.needs) {
     return problem(403, "this takes the role " + std::string(name(*route.needs)));
   }
-  if (route.method != "GET" &&
-      !is_media_type(header(call.request, "Content-Type"), "application/json")) {
+  if (!has_json(call, route.method)) {
     return problem(415, "the content type must be application/json");
   }
   refuse_unknown_parameters(call, route.parameters);

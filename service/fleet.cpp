@@ -7,20 +7,14 @@
 
 namespace kidnapwatch::service {
 
-Fleet::Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion detection)
+Fleet::Fleet(const FleetConfig& config, const Outside& outside)
     : config_(config),
-      outside_(std::move(outside)),
-      detection_(std::make_shared<const core::ConfigVersion>(std::move(detection))),
-      around_{.announcer = outside_.announcer,
-              .now = outside_.now,
-              .uptime = outside_.uptime,
-              .new_id = outside_.new_id,
-              .config =
-                  [this] {
-                    const std::lock_guard lock(config_mutex_);
-                    return detection_;
-                  },
-              .log_refusal = outside_.log_refusal} {
+      around_{.announcer = outside.announcer,
+              .now = outside.now,
+              .uptime = outside.uptime,
+              .new_id = outside.new_id,
+              .config = outside.config,
+              .log_refusal = outside.log_refusal} {
   for (std::size_t i = 0; i < config_.lanes; ++i) {
     lanes_.push_back(std::make_unique<Lane>(config_.lane));
   }
@@ -43,7 +37,7 @@ bool Fleet::order(const std::string& robot, Order order) {
   if (!found) {
     return false;
   }
-  Message message{.payload = {}, .content_type = {}, .arrival = outside_.now()};
+  Message message{.payload = {}, .content_type = {}, .arrival = around_.now()};
   message.kind = MessageKind::order;
   message.order = std::move(order);
   found->lane->push(*found->watch, std::move(message));
@@ -125,25 +119,6 @@ void Fleet::describe(core::ServiceStatus& status) const {
   for (const auto& lane : lanes_) {
     status.queued_scans += lane->queued();
   }
-}
-
-core::ConfigVersion Fleet::config() const { return *around_.config(); }
-
-core::ConfigVersion Fleet::put_config(const core::DetectionConfig& config,
-                                      std::optional<std::int64_t> seen_version,
-                                      const std::string& author) {
-  core::check(config);
-  const std::lock_guard one_at_a_time(put_mutex_);
-  const std::int64_t current = this->config().version;
-  if (seen_version && *seen_version != current) {
-    throw api::VersionConflict{current};
-  }
-  auto next = std::make_shared<const core::ConfigVersion>(
-      core::ConfigVersion{current + 1, outside_.now(), author, config});
-  outside_.save_config(*next);
-  const std::lock_guard lock(config_mutex_);
-  detection_ = next;
-  return *next;
 }
 
 }  // namespace kidnapwatch::service

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All robots: which lane watches each, and the configuration that they share.
+// All robots: which lane watches each.
 #pragma once
 
 #include <functional>
@@ -30,12 +30,12 @@ class Fleet {
     std::function<core::Stamp()> uptime;  ///< as in Surroundings
     std::function<std::string(core::Stamp)> new_id;
     std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
-    /// Makes a configuration durable, or throws.
-    std::function<void(const core::ConfigVersion&)> save_config;
+    /// As in Surroundings.
+    std::function<std::shared_ptr<const core::ConfigVersion>(const std::string& robot)> config;
   };
 
   /// `outside.announcer` outlives the fleet.
-  Fleet(const FleetConfig& config, Outside outside, core::ConfigVersion detection);
+  Fleet(const FleetConfig& config, const Outside& outside);
 
   /// A robot that an earlier run of the service knew. Before the first receive().
   void resume(const std::string& robot, const Past& past);
@@ -56,12 +56,6 @@ class Fleet {
   /// `counts`, `robots` and `queued_scans`.
   void describe(core::ServiceStatus& status) const;
 
-  [[nodiscard]] core::ConfigVersion config() const;
-  /// As api::Fleet::put_config.
-  core::ConfigVersion put_config(const core::DetectionConfig& config,
-                                 std::optional<std::int64_t> seen_version,
-                                 const std::string& author);
-
  private:
   struct Member {
     std::shared_ptr<Watch> watch;
@@ -73,10 +67,6 @@ class Fleet {
   [[nodiscard]] Member& join(const std::string& robot);
 
   const FleetConfig config_;
-  Outside outside_;
-  mutable std::mutex config_mutex_;  // over detection_
-  std::shared_ptr<const core::ConfigVersion> detection_;
-  std::mutex put_mutex_;  // one change of the configuration at a time
   Surroundings around_;
   mutable std::mutex mutex_;  // over members_ and counts_
   std::map<std::string, Member> members_;

@@ -11,13 +11,13 @@
 
 #include <spdlog/spdlog.h>
 
-#include "adapters/codecs/config_json.hpp"
 #include "adapters/codecs/messages.hpp"
 #include "adapters/mqtt/link.hpp"
 #include "api/routes.hpp"
 #include "api/server.hpp"
 #include "service/announcements.hpp"
 #include "service/command_desk.hpp"
+#include "service/configs.hpp"
 #include "service/fleet.hpp"
 #include "service/health.hpp"
 #include "service/ids.hpp"
@@ -60,18 +60,6 @@ std::uint64_t random_seed() {
   return (std::uint64_t{device()} << 32U) | device();
 }
 
-/// The configuration that was set last; if none was, the one of the settings.
-core::ConfigVersion starting_config(const storage::Archive& archive, const Settings& settings) {
-  const auto stored = archive.config();
-  if (!stored) {
-    return {.version = 0, .since = now(), .author = "settings", .config = settings.detection};
-  }
-  return {.version = stored->version,
-          .since = stored->since,
-          .author = stored->author,
-          .config = codecs::detection_config(codecs::parsed(stored->text, "stored config"))};
-}
-
 MessageKind message_kind(mqtt::TopicKind topic) {
   if (topic == mqtt::TopicKind::odom) return MessageKind::odometry;
   return topic == mqtt::TopicKind::particles ? MessageKind::particles : MessageKind::scan;
@@ -91,11 +79,12 @@ class Service::Parts final : public api::Fleet {
     return fleet_.robot(id);
   }
   [[nodiscard]] core::ServiceStatus status() const override;
-  [[nodiscard]] core::ConfigVersion config() const override { return fleet_.config(); }
-  core::ConfigVersion put_config(const core::DetectionConfig& config,
-                                 std::optional<std::int64_t> seen_version,
-                                 const std::string& author) override {
-    return fleet_.put_config(config, seen_version, author);
+  [[nodiscard]] api::ConfigView config(const std::string& robot) const override {
+    return configs_.view(robot);
+  }
+  api::ConfigView put_config(const std::string& robot, const api::Json& values,
+                             std::int64_t seen_version, const std::string& author) override {
+    return configs_.put(robot, values, seen_version, author);
   }
   std::optional<core::Incident> change_incident(const std::string& id,
                                                 const core::IncidentCommand& command) override {
@@ -126,6 +115,7 @@ class Service::Parts final : public api::Fleet {
   mqtt::Link link_;
   Outbox outbox_;
   Announcements announcements_;
+  Configs configs_;
   service::Fleet fleet_;
   Orders orders_{fleet_, archive_, writer_};
   CommandDesk desk_{desk_ways()};
@@ -148,12 +138,16 @@ Service::Parts::Parts(const Settings& settings)
       link_(link_config(), link_events()),
       outbox_(outbox_ways()),
       announcements_(link_, writer_, outbox_, settings.mqtt_publish_scores),
+      configs_(
+          settings.detection, latest_changes(archive_),
+          {.now = now,
+           .save = [this](const auto& change) { writer_.add_config(config_text(change)).get(); }}),
       fleet_({.lanes = settings.service_lanes,
               .max_robots = settings.service_max_robots,
               .lane = {.queue_per_robot = settings.service_queue_per_robot,
                        .scans_per_s = settings.service_scans_per_s,
                        .payload = {.max_payload_bytes = settings.service_max_payload_bytes}}},
-             outside(), starting_config(archive_, settings)),
+             outside()),
       guard_(token_lookup(), rate_limit(settings), monotonic_s) {
   if (!needs_tokens(settings)) {
     spdlog::warn("REST asks for no token: whoever reaches {} may read and configure everything",
@@ -217,13 +211,7 @@ service::Fleet::Outside Service::Parts::outside() {
           .new_id = [this](core::Stamp at) { return ids_.next(at); },
           .log_refusal = [this](const std::string& robot,
                                 const core::BadInput& why) { log_refusal_(robot, why); },
-          .save_config =
-              [this](const core::ConfigVersion& config) {
-                writer_
-                    .add_config({config.version, config.since, config.author,
-                                 codecs::text(codecs::json(config.config))})
-                    .get();
-              }};
+          .config = [this](const std::string& robot) { return configs_.in_force(robot); }};
 }
 
 CommandDesk::Ways Service::Parts::desk_ways() {
@@ -258,7 +246,7 @@ api::Guard::Lookup Service::Parts::token_lookup() const {
 
 void Service::Parts::resume_robots() {
   std::map<std::string, Past> pasts;
-  for (auto& robot : archive_.robots(fleet_.config().config.calibration.window_pairs)) {
+  for (auto& robot : archive_.robots(configs_.window_pairs())) {
     pasts[robot.robot].natural_scores = std::move(robot.natural_scores);
     pasts[robot.robot].learned = std::move(robot.learned);
   }

@@ -2,10 +2,37 @@
 // The store's archive as REST asks for it.
 #pragma once
 
+#include "adapters/codecs/json.hpp"
 #include "api/ports.hpp"
 #include "storage/archive.hpp"
 
 namespace kidnapwatch::service {
+
+[[nodiscard]] inline api::ConfigChange config_change(const storage::ConfigText& stored) {
+  return {.version = stored.version,
+          .since = stored.since,
+          .author = stored.author,
+          .robot = stored.robot,
+          .values = adapters::codecs::parsed(stored.text, "stored config")};
+}
+
+[[nodiscard]] inline storage::ConfigText config_text(const api::ConfigChange& change) {
+  return {.version = change.version,
+          .since = change.since,
+          .author = change.author,
+          .text = adapters::codecs::text(change.values),
+          .robot = change.robot};
+}
+
+/// Of each level of the configuration.
+[[nodiscard]] inline std::vector<api::ConfigChange> latest_changes(
+    const storage::Archive& archive) {
+  std::vector<api::ConfigChange> changes;
+  for (const auto& stored : archive.latest_configs()) {
+    changes.push_back(config_change(stored));
+  }
+  return changes;
+}
 
 /// The archive outlives it.
 class StoredHistory final : public api::History {
@@ -32,6 +59,15 @@ class StoredHistory final : public api::History {
   }
   [[nodiscard]] std::optional<core::Evidence> evidence(const std::string& id) const override {
     return archive_.evidence(id);
+  }
+  [[nodiscard]] std::vector<api::ConfigChange> configs(
+      const api::ConfigQuery& query) const override {
+    std::vector<api::ConfigChange> changes;
+    for (const auto& stored :
+         archive_.configs({.robot = query.robot, .before = query.before, .limit = query.limit})) {
+      changes.push_back(config_change(stored));
+    }
+    return changes;
   }
 
  private:

@@ -42,7 +42,7 @@ void describe(core::Incident& incident, const core::Jump& jump) {
 Watch::Watch(std::string id, const Surroundings& around)
     : id_(std::move(id)),
       around_(around),
-      config_(around.config()),
+      config_(around.config(id_)),
       session_(config_->config),
       others_(config_->config) {
   status_.id = id_;
@@ -237,7 +237,7 @@ void Watch::tick() {
 }
 
 void Watch::refresh_config() {
-  auto current = around_.config();
+  auto current = around_.config(id_);
   if (current->version != config_->version) {
     session_.configure(current->config);
     if (current->config.detectors != config_->config.detectors ||

@@ -70,7 +70,8 @@ struct Surroundings {
   /// A clock that only ever goes on, for what lasts: the wall's may jump.
   std::function<core::Stamp()> uptime;
   std::function<std::string(core::Stamp)> new_id;
-  std::function<std::shared_ptr<const core::ConfigVersion>()> config;
+  /// What is in force for the robot.
+  std::function<std::shared_ptr<const core::ConfigVersion>(const std::string& robot)> config;
   std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
 };
 

@@ -54,8 +54,17 @@ std::vector<float> learned(Database& database, const std::string& robot) {
 }
 
 ConfigText config_from(const Statement& row) {
-  return {
-      .version = row.integer(0), .since = row.stamp(1), .author = row.text(2), .text = row.text(3)};
+  return {.version = row.integer(0),
+          .since = row.stamp(1),
+          .author = row.text(2),
+          .text = row.text(3),
+          .robot = row.text(4)};
+}
+
+std::vector<ConfigText> all_configs(Statement& query) {
+  std::vector<ConfigText> configs;
+  while (query.step()) configs.push_back(config_from(query));
+  return configs;
 }
 
 }  // namespace
@@ -142,19 +151,22 @@ std::optional<core::Evidence> Archive::evidence(const std::string& incident_id) 
   return core::Evidence{.scans = std::move(*scans), .scores = std::move(scores)};
 }
 
-std::optional<ConfigText> Archive::config() const {
+std::vector<ConfigText> Archive::latest_configs() const {
   const Lease lease(*this);
-  Statement query(lease, "SELECT * FROM config ORDER BY version DESC LIMIT 1");
-  if (!query.step()) return std::nullopt;
-  return config_from(query);
+  Statement query(lease,
+                  "SELECT * FROM config WHERE version IN "
+                  "(SELECT max(version) FROM config GROUP BY robot) ORDER BY version");
+  return all_configs(query);
 }
 
-std::vector<ConfigText> Archive::configs() const {
+std::vector<ConfigText> Archive::configs(const ConfigFilter& filter) const {
   const Lease lease(*this);
-  Statement query(lease, "SELECT * FROM config ORDER BY version DESC");
-  std::vector<ConfigText> configs;
-  while (query.step()) configs.push_back(config_from(query));
-  return configs;
+  std::string where = "FROM config WHERE true";
+  if (filter.robot) where += " AND robot = ?1";
+  if (filter.before) where += " AND version < ?2";
+  Statement query(lease, select("*", where + " ORDER BY version DESC LIMIT ?3"));
+  query.bind(filter.robot, filter.before, filter.limit);
+  return all_configs(query);
 }
 
 std::vector<OutboxMessage> Archive::outbox() const {

@@ -40,10 +40,10 @@ class Archive {
   /// With the scores within 10 s of the two scans.
   [[nodiscard]] std::optional<core::Evidence> evidence(const std::string& incident_id) const;
 
-  /// The latest; nothing before the first was set.
-  [[nodiscard]] std::optional<ConfigText> config() const;
+  /// The latest of the fleet and of each robot that has one, oldest first.
+  [[nodiscard]] std::vector<ConfigText> latest_configs() const;
   /// Newest first.
-  [[nodiscard]] std::vector<ConfigText> configs() const;
+  [[nodiscard]] std::vector<ConfigText> configs(const ConfigFilter& filter) const;
 
   /// Alerts that were not delivered, and the latest of each unresolved incident, in the order in
   /// which they were written.

@@ -44,7 +44,7 @@ Journal::Journal(Database& database)
       add_scan_(database, "INSERT OR IGNORE INTO evidence_scan (incident, is_after, " +
                               std::string(kScanColumns) +
                               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)"),
-      add_config_(database, "INSERT INTO config VALUES (?1, ?2, ?3, ?4)"),
+      add_config_(database, "INSERT INTO config VALUES (?1, ?2, ?3, ?4, ?5)"),
       add_message_(database,
                    "INSERT OR IGNORE INTO outbox (event_id, incident, robot, payload) "
                    "VALUES (?1, ?2, ?3, ?4)"),
@@ -74,11 +74,12 @@ void Journal::add_evidence(const std::string& incident_id, const core::ScanPair&
 }
 
 void Journal::add(const ConfigText& config) {
-  add_config_.bind(config.version, config.since, config.author, config.text).run();
+  add_config_.bind(config.version, config.since, config.author, config.text, config.robot).run();
+  const std::string of_robot = config.robot.empty() ? "" : " of robot " + config.robot;
   audit_.append({.at = config.since,
                  .actor = config.author,
                  .action = "config.set",
-                 .subject = std::to_string(config.version),
+                 .subject = std::to_string(config.version) + of_robot,
                  .detail = config.text});
 }
 

@@ -66,14 +66,22 @@ struct NumberedAuditEntry {
   friend bool operator==(const NumberedAuditEntry&, const NumberedAuditEntry&) = default;
 };
 
-/// A configuration as somebody set it; the text is the caller's.
+/// A level of the configuration as somebody set it; the text is the caller's.
 struct ConfigText {
   std::int64_t version = 0;
   core::Stamp since;
   std::string author;
   std::string text;
+  std::string robot = {};  ///< whose level; empty: the fleet's
 
   friend bool operator==(const ConfigText&, const ConfigText&) = default;
+};
+
+/// Which changes of the configuration, newest first; nothing set means all.
+struct ConfigFilter {
+  std::optional<std::string> robot = std::nullopt;    ///< of this level; empty: the fleet's
+  std::optional<std::int64_t> before = std::nullopt;  ///< only earlier versions
+  std::size_t limit = 100;
 };
 
 /// Which incidents; nothing set means all.

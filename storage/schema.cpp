@@ -65,8 +65,9 @@ CREATE TABLE evidence_scan (
   PRIMARY KEY (incident, is_after)) STRICT;
 
 CREATE TABLE config (
-  version INTEGER PRIMARY KEY, since INTEGER NOT NULL, author TEXT NOT NULL, text TEXT NOT NULL
-) STRICT;
+  version INTEGER PRIMARY KEY, since INTEGER NOT NULL, author TEXT NOT NULL, text TEXT NOT NULL,
+  robot TEXT NOT NULL) STRICT;  -- '': the fleet's
+CREATE INDEX config_of_robot ON config (robot, version);
 
 -- What was learned of a robot, for the service's next start.
 CREATE TABLE learned (

@@ -172,6 +172,24 @@ class Reader {
   std::vector<std::string> known_;
 };
 
+const Json& member(const Json& object, const std::string& key) {
+  static const Json kNothing = Json::object();
+  const auto found = object.find(key);
+  return found == object.end() ? kNothing : *found;
+}
+
+void note_origins(const Json& effective, const Json& fleet, const Json& robot,
+                  const std::string& path, Json& origins) {
+  for (const auto& [key, value] : effective.items()) {
+    if (value.is_object()) {
+      note_origins(value, member(fleet, key), member(robot, key), path + key + ".", origins);
+    } else {
+      const char* fallback = fleet.contains(key) ? "fleet" : "default";
+      origins[path + key] = robot.contains(key) ? "robot" : fallback;
+    }
+  }
+}
+
 }  // namespace
 
 Json json(const core::DetectionConfig& config) {
@@ -187,6 +205,12 @@ core::DetectionConfig detection_config(const Json& object, const core::Detection
   each_member(config, reader);
   reader.refuse_unknown();
   return config;
+}
+
+Json config_origins(const core::DetectionConfig& effective, const Json& fleet, const Json& robot) {
+  Json origins = Json::object();
+  note_origins(json(effective), fleet, robot, "", origins);
+  return origins;
 }
 
 }  // namespace kidnapwatch::adapters::codecs

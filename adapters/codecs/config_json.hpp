@@ -16,4 +16,9 @@ namespace kidnapwatch::adapters::codecs {
 [[nodiscard]] core::DetectionConfig detection_config(const Json& object,
                                                      const core::DetectionConfig& base = {});
 
+/// For every member of `effective`, by its path ("calibration.window_pairs"), the level that it
+/// comes from: "robot" or "fleet" where these set it, else "default".
+[[nodiscard]] Json config_origins(const core::DetectionConfig& effective, const Json& fleet,
+                                  const Json& robot);
+
 }  // namespace kidnapwatch::adapters::codecs

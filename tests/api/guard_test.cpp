@@ -83,7 +83,7 @@ TEST_F(GuardTest, LetsOnlyAnAdminConfigure) {
   EXPECT_EQ(put_as("operator"), 403);
   EXPECT_EQ(put_as("partial"), 403);
   EXPECT_EQ(put_as("admin"), 200);
-  EXPECT_EQ(fleet.config().author, "admin");
+  EXPECT_EQ(fleet.config("").effective.author, "admin");
 }
 
 TEST_F(GuardTest, HidesTheRobotsOfOthers) {

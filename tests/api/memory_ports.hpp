@@ -6,11 +6,12 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "adapters/codecs/json.hpp"
+#include "adapters/codecs/config_json.hpp"
 #include "api/routes.hpp"
 
 namespace kidnapwatch::api {
@@ -46,25 +47,27 @@ class MemoryFleet : public Fleet {
 
   [[nodiscard]] core::ServiceStatus status() const override { return status_now; }
 
-  [[nodiscard]] core::ConfigVersion config() const override {
+  [[nodiscard]] ConfigView config(const std::string& robot) const override {
     const std::scoped_lock lock(mutex_);
-    return config_;
+    return view(robot, levels);
   }
 
-  core::ConfigVersion put_config(const core::DetectionConfig& config,
-                                 std::optional<std::int64_t> seen_version,
-                                 const std::string& author) override {
-    core::check(config);
+  ConfigView put_config(const std::string& robot, const Json& values, std::int64_t seen_version,
+                        const std::string& author) override {
     const std::scoped_lock lock(mutex_);
-    if (overtaken) {
-      overtaken = false;
-      ++config_.version;
+    if (std::exchange(overtaken, false)) {
+      set(levels, "", Json::object(), "rival");
     }
-    if (seen_version && *seen_version != config_.version) {
-      throw VersionConflict{config_.version};
+    const auto current = view(robot, levels).effective.version;
+    if (seen_version != current) {
+      throw VersionConflict{current};
     }
-    config_ = {config_.version + 1, config_.since, author, config};
-    return config_;
+    auto next = levels;
+    set(next, robot, values, author);
+    const auto result = view(robot, next);
+    core::check(result.effective.config);
+    levels = next;
+    return result;
   }
 
   /// Told what is to be done; answers what `changed` is then.
@@ -82,13 +85,35 @@ class MemoryFleet : public Fleet {
   bool busy = false;
   bool overtaken = false;  ///< somebody else is faster than the next put_config
 
+  std::vector<ConfigChange> levels;  ///< all changes, the latest last
+
  private:
+  static void set(std::vector<ConfigChange>& levels, const std::string& robot, const Json& values,
+                  const std::string& author) {
+    const auto version = static_cast<std::int64_t>(levels.size()) + 1;
+    levels.push_back(
+        {.version = version, .since = {}, .author = author, .robot = robot, .values = values});
+  }
+  static ConfigView view(const std::string& robot, const std::vector<ConfigChange>& levels) {
+    ConfigView view;
+    for (const auto& change : levels) {
+      if (change.robot.empty() || change.robot == robot) {
+        (change.robot.empty() ? view.fleet : view.robot) = change.values;
+        view.effective.version = change.version;
+        view.effective.author = change.author;
+      }
+    }
+    using adapters::codecs::detection_config;
+    view.effective.config = detection_config(view.robot, detection_config(view.fleet));
+    return view;
+  }
+
   mutable std::mutex mutex_;
-  core::ConfigVersion config_;
 };
 
 class MemoryHistory : public History {
  public:
+  std::vector<ConfigChange> all_configs;                        ///< newest first
   std::vector<std::pair<std::string, core::Score>> all_scores;  ///< in order of stamps
   std::vector<core::Incident> all_incidents;                    ///< newest first
   std::vector<std::pair<std::string, core::Evidence>> all_evidence;
@@ -138,6 +163,18 @@ class MemoryHistory : public History {
     return std::nullopt;
   }
 
+  [[nodiscard]] std::vector<ConfigChange> configs(const ConfigQuery& query) const override {
+    std::vector<ConfigChange> found;
+    for (const auto& one : all_configs) {
+      const bool wanted = query.robot.value_or(one.robot) == one.robot &&
+                          one.version < query.before.value_or(one.version + 1);
+      if (wanted && found.size() < query.limit) {
+        found.push_back(one);
+      }
+    }
+    return found;
+  }
+
  private:
   static bool contains(TimeRange range, core::Stamp stamp) {
     return range.from <= stamp && stamp < range.to;
@@ -160,6 +197,15 @@ class ApiTest : public ::testing::Test {
                std::vector<Header> headers = {}) {
     headers.push_back({"Content-Type", "application/json"});
     return call({"PUT", target, std::move(headers), body, "10.0.0.7"});
+  }
+
+  Response patch(const std::string& target, const std::string& body,
+                 std::vector<Header> headers = {{"Content-Type", "application/json"}}) {
+    return call({"PATCH", target, std::move(headers), body, "10.0.0.7"});
+  }
+
+  Response remove(const std::string& target, std::vector<Header> headers = {}) {
+    return call({"DELETE", target, std::move(headers), "", "10.0.0.7"});
   }
 
   Response post(const std::string& target, const std::string& body,

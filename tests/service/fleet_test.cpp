@@ -20,19 +20,14 @@ core::Stamp fixed_now() { return test::at_s(1000.0); }
 
 class FleetTest : public ::testing::Test {
  protected:
-  Fleet::Outside outside() {
+  Fleet::Outside outside(const core::ConfigVersion& config = {}) {
     return {.announcer = heard_,
             .now = fixed_now,
             .uptime = fixed_now,
             .new_id = [](core::Stamp) { return std::string("id"); },
             .log_refusal = [](const std::string&, const core::BadInput&) {},
-            .save_config = [this](const core::ConfigVersion& version) { save(version); }};
-  }
-  void save(const core::ConfigVersion& version) {
-    if (refuse_to_save_) {
-      throw std::runtime_error("disk full");
-    }
-    saved_.push_back(version);
+            .config = [shared = std::make_shared<const core::ConfigVersion>(config)](
+                          const std::string&) { return shared; }};
   }
   /// All of one robot.
   static std::uint64_t counted(const Fleet& fleet, const std::string& robot, Outcome outcome) {
@@ -45,12 +40,10 @@ class FleetTest : public ::testing::Test {
   }
 
   test::Heard heard_;
-  bool refuse_to_save_ = false;
-  std::vector<core::ConfigVersion> saved_;
 };
 
 TEST_F(FleetTest, CountsEveryMessageOfManyPublishersOnce) {
-  Fleet fleet({.lanes = 2, .lane = {.queue_per_robot = 8}}, outside(), test::with_threshold(60.0));
+  Fleet fleet({.lanes = 2, .lane = {.queue_per_robot = 8}}, outside(test::with_threshold(60.0)));
   constexpr int kPublishers = 4;
   constexpr int kScans = 200;
   std::vector<std::thread> publishers;
@@ -95,8 +88,8 @@ class Held : public test::Heard {
 };
 
 TEST_F(FleetTest, ARobotAboveItsRateIsCutAndTheOthersAreNot) {
-  Fleet fleet({.lanes = 1, .lane = {.queue_per_robot = 10'000, .scans_per_s = 10}}, outside(),
-              test::with_threshold(60.0));
+  Fleet fleet({.lanes = 1, .lane = {.queue_per_robot = 10'000, .scans_per_s = 10}},
+              outside(test::with_threshold(60.0)));
   for (int i = 0; i < 5000; ++i) {
     fleet.receive("loud", test::message(round_room(2.0, i), fixed_now()));
   }
@@ -112,11 +105,9 @@ TEST_F(FleetTest, ARobotAboveItsRateIsCutAndTheOthersAreNot) {
 
 TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
   Held held;
-  auto around = outside();
-  Fleet fleet(
-      {.lanes = 1, .lane = {.queue_per_robot = 4}},
-      {held, around.now, around.uptime, around.new_id, around.log_refusal, around.save_config},
-      test::with_threshold(60.0));
+  auto around = outside(test::with_threshold(60.0));
+  Fleet fleet({.lanes = 1, .lane = {.queue_per_robot = 4}},
+              {held, around.now, around.uptime, around.new_id, around.log_refusal, around.config});
   fleet.receive("loud", test::message(round_room(2.0, 1.0), fixed_now()));
   fleet.receive("loud", test::message(round_room(2.0, 2.0), fixed_now()));
   held.reached_.get_future().wait();  // the lane is busy with the second scan
@@ -135,11 +126,9 @@ TEST_F(FleetTest, AFullQueueDropsTheSameRobotsOldestAndServesTheOthers) {
 
 TEST_F(FleetTest, AnOrderIsCarriedOutHoweverManyScansComeAfterIt) {
   Held held;
-  auto around = outside();
-  Fleet fleet(
-      {.lanes = 1, .lane = {.queue_per_robot = 4}},
-      {held, around.now, around.uptime, around.new_id, around.log_refusal, around.save_config},
-      test::with_threshold(60.0));
+  auto around = outside(test::with_threshold(60.0));
+  Fleet fleet({.lanes = 1, .lane = {.queue_per_robot = 4}},
+              {held, around.now, around.uptime, around.new_id, around.log_refusal, around.config});
   fleet.receive("loud", test::message(round_room(2.0, 1.0), fixed_now()));
   fleet.receive("loud", test::message(round_room(2.0, 2.0), fixed_now()));
   held.reached_.get_future().wait();  // the lane is busy with the second scan
@@ -162,7 +151,7 @@ TEST_F(FleetTest, AnOrderIsCarriedOutHoweverManyScansComeAfterIt) {
 }
 
 TEST_F(FleetTest, ItIsScansThatMakeARobot) {
-  Fleet fleet({.lanes = 1}, outside(), {});
+  Fleet fleet({.lanes = 1}, outside());
   Message particles = test::message("[1]", fixed_now());
   particles.kind = MessageKind::particles;
   fleet.receive("r1", particles);
@@ -174,7 +163,7 @@ TEST_F(FleetTest, ItIsScansThatMakeARobot) {
 }
 
 TEST_F(FleetTest, RefusesStrangeNamesAndTooManyRobots) {
-  Fleet fleet({.lanes = 1, .max_robots = 2}, outside(), {});
+  Fleet fleet({.lanes = 1, .max_robots = 2}, outside());
   for (const char* robot : {"a", "b", "c", "", "sp ace", "a/b"}) {
     fleet.receive(robot, test::message(round_room(2.0, 1.0), fixed_now()));
   }
@@ -187,40 +176,24 @@ TEST_F(FleetTest, RefusesStrangeNamesAndTooManyRobots) {
   EXPECT_FALSE(fleet.robot("c"));
 }
 
-TEST_F(FleetTest, PutsAConfigurationOnlyOnceItIsSaved) {
-  Fleet fleet({.lanes = 1}, outside(), {});
-  core::DetectionConfig config;
-  config.alarm = core::AlarmBy::qs2ddtw;
-  config.threshold = 70.0;
-  EXPECT_EQ(fleet.put_config(config, 0, "me").version, 1);
-  EXPECT_EQ(saved_.at(0).config.threshold, 70.0);
-  EXPECT_THROW(fleet.put_config(config, 0, "late"), api::VersionConflict);
-  config.threshold = -1.0;
-  EXPECT_THROW(fleet.put_config(config, {}, "me"), core::BadInput);
-  refuse_to_save_ = true;
-  config.threshold = 80.0;
-  EXPECT_THROW(fleet.put_config(config, {}, "me"), std::runtime_error);
-  EXPECT_EQ(fleet.config().config.threshold, 70.0);
-}
-
 TEST_F(FleetTest, ResumesRobotsOfAnEarlierRun) {
   core::ConfigVersion by_the_paper;
   by_the_paper.config.alarm = core::AlarmBy::qs2ddtw;
-  Fleet fleet({.lanes = 1}, outside(), by_the_paper);
+  Fleet fleet({.lanes = 1}, outside(by_the_paper));
   fleet.resume("old", {.natural_scores = std::vector<double>(200, 10.0)});
   EXPECT_EQ(fleet.robot("old")->calibration_pairs, 200U);
   EXPECT_EQ(fleet.robot("old")->threshold, 10.0);
 }
 
 TEST_F(FleetTest, KeepsWhatItLearnedForTheNextRun) {
-  Fleet fleet({.lanes = 1}, outside(), {});
+  Fleet fleet({.lanes = 1}, outside());
   for (int i = 0; i < 40; ++i) {
     fleet.receive("r1", test::message(round_room(2.0, i), fixed_now()));
   }
   fleet.stop();
   const auto pairs = fleet.robot("r1")->calibration_pairs;
   EXPECT_GT(pairs, 30U);
-  Fleet next({.lanes = 1}, outside(), {});
+  Fleet next({.lanes = 1}, outside());
   next.resume("r1", {.learned = heard_.learned().at("r1")});
   EXPECT_EQ(next.robot("r1")->calibration_pairs, pairs);
 }

@@ -148,7 +148,7 @@ class Life final : public Announcer {
                 .now = outside.now,
                 .uptime = outside.uptime,
                 .new_id = [&ids = outside.ids](Stamp at) { return ids.next(at); },
-                .config = [] { return config(); },
+                .config = [](const auto&) { return config(); },
                 .log_refusal = [](const auto&, const auto&) {}} {
     std::map<std::string, Past> pasts;
     for (auto& robot : archive_.robots(config()->config.calibration.window_pairs)) {

@@ -37,7 +37,7 @@ class WatchTest : public ::testing::Test {
                        .now = [this] { return now_; },
                        .uptime = [this] { return uptime_ ? *uptime_ : now_; },
                        .new_id = [this](core::Stamp) { return std::to_string(++ids_); },
-                       .config = [this] { return config_; },
+                       .config = [this](const auto&) { return config_; },
                        .log_refusal = [](const std::string&, const core::BadInput&) {}};
   Bench bench_{{.max_payload_bytes = 10'000}};
   Watch watch_{"r1", around_};

@@ -170,13 +170,19 @@ TEST_F(ArchiveTest, NoEvidenceIsNothing) {
 }
 
 TEST_F(ArchiveTest, ConfigurationsAreListedNewestFirst) {
-  EXPECT_EQ(archive_.config(), std::nullopt);
-  const ConfigText first{.version = 1, .since = at_s(1), .author = "eve", .text = "{\"a\":1}"};
-  const ConfigText second{.version = 2, .since = at_s(2), .author = "bob", .text = "ü"};
-  writer_.add_config(first).get();
-  writer_.add_config(second).get();
-  EXPECT_EQ(archive_.config(), second);
-  EXPECT_EQ(archive_.configs(), (std::vector{second, first}));
+  EXPECT_TRUE(archive_.latest_configs().empty());
+  const auto config = [](std::int64_t version, const char* text, const char* robot) {
+    return ConfigText{
+        .version = version, .since = at_s(version), .author = "eve", .text = text, .robot = robot};
+  };
+  const std::vector all{config(1, "{\"a\":1}", ""), config(2, "ü", "r1"), config(3, "{}", ""),
+                        config(4, "{}", "r2")};
+  for (const auto& one : all) writer_.add_config(one).get();
+  EXPECT_EQ(archive_.latest_configs(), (std::vector{all[1], all[2], all[3]}));
+  EXPECT_EQ(archive_.configs({}), (std::vector{all[3], all[2], all[1], all[0]}));
+  EXPECT_EQ(archive_.configs({.robot = "r1"}), (std::vector{all[1]}));
+  EXPECT_EQ(archive_.configs({.robot = ""}), (std::vector{all[2], all[0]}));
+  EXPECT_EQ(archive_.configs({.before = 4, .limit = 2}), (std::vector{all[2], all[1]}));
 }
 
 TEST_F(ArchiveTest, RobotsTakeUpWhereTheyStopped) {

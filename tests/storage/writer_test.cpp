@@ -86,7 +86,7 @@ TEST_F(WriterTest, AConfigurationIsDurableWhenItsFutureIsReady) {
   Writer writer({.file = folder_.store(), .commit_every = kNever});
   const ConfigText config{.version = 1, .since = at_s(0), .author = "eve", .text = "{}"};
   writer.add_config(config).get();
-  EXPECT_EQ(Archive(folder_.store()).config(), config);
+  EXPECT_EQ(Archive(folder_.store()).latest_configs(), std::vector{config});
 }
 
 TEST_F(WriterTest, AVersionThatExistsIsRefusedAloneAndTheRestIsWritten) {
@@ -97,7 +97,7 @@ TEST_F(WriterTest, AVersionThatExistsIsRefusedAloneAndTheRestIsWritten) {
   EXPECT_THROW(second.get(), StorageError);
   EXPECT_TRUE(writer.healthy());
   EXPECT_EQ(stored_scores(), 1U);
-  EXPECT_EQ(Archive(folder_.store()).config()->text, "first");
+  EXPECT_EQ(Archive(folder_.store()).latest_configs().at(0).text, "first");
 }
 
 TEST_F(WriterTest, RefusesNewerSchemas) {
@@ -238,7 +238,7 @@ TEST_F(FaultyWriterTest, AConfigurationIsToldAtOnceThatItFailedAndStaysUnwritten
   EXPECT_THROW(config.get(), StorageError);
   disk_.let_writes_return(SQLITE_OK);
   writer.flush().get();
-  EXPECT_EQ(Archive(folder_.store()).config(), std::nullopt);
+  EXPECT_TRUE(Archive(folder_.store()).latest_configs().empty());
 }
 
 TEST_F(FaultyWriterTest, StopsEvenWhileTheDiskIsFull) {

@@ -102,5 +102,17 @@ TEST(ConfigJson, SaysWhichNamesAreAllowed) {
   }
 }
 
+TEST(ConfigOrigins, NameTheLevelThatSetsAMember) {
+  const auto fleet = parsed(R"({"threshold":60,"calibration":{"window_pairs":500}})", "fleet");
+  const auto robot = parsed(R"({"threshold":null,"motion":{"sensor":{"x_m":1}}})", "robot");
+  const Json origins = config_origins({}, fleet, robot);
+  EXPECT_EQ(origins.at("threshold"), "robot");
+  EXPECT_EQ(origins.at("calibration.window_pairs"), "fleet");
+  EXPECT_EQ(origins.at("calibration.warmup_pairs"), "default");
+  EXPECT_EQ(origins.at("motion.sensor.x_m"), "robot");
+  EXPECT_EQ(origins.at("motion.sensor.y_m"), "default");
+  EXPECT_EQ(origins.at("detectors"), "default");
+}
+
 }  // namespace
 }  // namespace kidnapwatch::adapters::codecs
