@@ -2,6 +2,7 @@
 // What REST needs to know and to do: the running fleet, and its history.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "adapters/codecs/json.hpp"
 #include "core/incident.hpp"
 #include "core/incident_command.hpp"
+#include "core/score_buckets.hpp"
 #include "core/status.hpp"
 
 namespace kidnapwatch::api {
@@ -98,6 +100,10 @@ class History {
   /// By stamp, oldest first, at most `limit`.
   [[nodiscard]] virtual std::vector<core::Score> scores(const std::string& robot, TimeRange stamps,
                                                         std::size_t limit) const = 0;
+  /// The same scores in buckets, oldest first, at most `limit` of them; see core::ScoreBuckets.
+  [[nodiscard]] virtual std::vector<core::ScoreBucket> score_buckets(
+      const std::string& robot, TimeRange stamps, std::chrono::seconds resolution,
+      std::size_t limit) const = 0;
   [[nodiscard]] virtual std::vector<core::Incident> incidents(const IncidentQuery& query) const = 0;
   [[nodiscard]] virtual std::optional<core::Incident> incident(const std::string& id) const = 0;
   [[nodiscard]] virtual std::optional<core::Evidence> evidence(

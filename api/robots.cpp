@@ -2,39 +2,65 @@
 // Robots from the running fleet; scores from its history.
 #include "api/robots.hpp"
 
+#include <charconv>
+#include <chrono>
+#include <utility>
+
 #include "adapters/codecs/history_json.hpp"
 #include "adapters/codecs/rfc3339.hpp"
 #include "adapters/codecs/status_json.hpp"
-#include "api/problem.hpp"
+#include "core/bad_input.hpp"
 
 namespace kidnapwatch::api {
 namespace {
 
 using adapters::codecs::json;
 using adapters::codecs::Json;
-using Scores = std::vector<core::Score>;
+constexpr int kLongestResolution_s = 86'400;
 
-/// If there are more than `limit` scores: cuts them to it and says where the next page starts.
-std::optional<std::string> next_link(const Call& call, Scores& scores, std::size_t limit) {
-  if (scores.size() <= limit) {
-    return std::nullopt;
+/// Nothing: scores one by one. Throws BadInput unless it is a whole number of seconds.
+std::optional<std::chrono::seconds> resolution(const Call& call) {
+  const auto text = parameter(call, "resolution");
+  if (!text) return std::nullopt;
+  int seconds = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), seconds);
+  if (error != std::errc() || end != text->data() + text->size() || seconds < 1 ||
+      seconds > kLongestResolution_s) {
+    throw core::BadInput("resolution", "must be whole seconds from 1 to 86400");
   }
-  const auto next = scores[limit].stamp;
-  scores.resize(limit);
-  return link_with(call, "from", adapters::codecs::rfc3339(next));
+  return std::chrono::seconds(seconds);
 }
 
-Response csv(const Scores& scores) {
-  return {200, "text/csv; charset=utf-8; header=present", adapters::codecs::scores_csv(scores)};
+core::Stamp begin(const core::Score& score) { return score.stamp; }
+core::Stamp begin(const core::ScoreBucket& bucket) { return bucket.from; }
+
+std::string csv(const std::vector<core::Score>& scores) {
+  return adapters::codecs::scores_csv(scores);
+}
+std::string csv(const std::vector<core::ScoreBucket>& buckets) {
+  return adapters::codecs::score_buckets_csv(buckets);
 }
 
-Response listed(const Scores& scores, const std::optional<std::string>& next) {
-  Json body{{"scores", Json::array()}};
-  for (const auto& score : scores) {
-    body["scores"].push_back(json(score));
+/// A page of `items`, of which there may be more than `limit`: then it says where the next starts.
+template <typename Item>
+Response page(const Call& call, const char* name, std::vector<Item> items, std::size_t limit) {
+  std::optional<std::string> next;
+  if (items.size() > limit) {
+    next = link_with(call, "from", adapters::codecs::rfc3339(begin(items[limit])));
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(limit), items.end());
   }
-  adapters::codecs::set(body, "next", next);
-  return ok(body);
+  Response response;
+  if (prefers(header(call.request, "Accept"), "text/csv", "application/json")) {
+    response = {200, "text/csv; charset=utf-8; header=present", csv(items)};
+  } else {
+    Json body{{name, Json::array()}};
+    for (const auto& item : items) body[name].push_back(json(item));
+    adapters::codecs::set(body, "next", next);
+    response = ok(body);
+  }
+  response.headers.push_back({"Vary", "Accept"});
+  if (next) link_next(response, *next);
+  return response;
 }
 
 }  // namespace
@@ -60,18 +86,16 @@ Response get_scores(const Call& call) {
   if (!call.caller.may_see(call.id)) {
     return no_such_robot(call);
   }
-  auto scores = call.ports.history.scores(call.id, range, limit + 1);
-  if (scores.empty() && !call.ports.fleet.robot(call.id)) {
-    return no_such_robot(call);
+  const auto& history = call.ports.history;
+  const bool is_known = call.ports.fleet.robot(call.id).has_value();
+  if (const auto by = resolution(call)) {
+    auto buckets = history.score_buckets(call.id, range, *by, limit + 1);
+    const bool is_there = is_known || !buckets.empty();
+    return is_there ? page(call, "buckets", std::move(buckets), limit) : no_such_robot(call);
   }
-  const auto next = next_link(call, scores, limit);
-  const bool as_csv = prefers(header(call.request, "Accept"), "text/csv", "application/json");
-  Response response = as_csv ? csv(scores) : listed(scores, next);
-  response.headers.push_back({"Vary", "Accept"});
-  if (next) {
-    link_next(response, *next);
-  }
-  return response;
+  auto scores = history.scores(call.id, range, limit + 1);
+  const bool is_there = is_known || !scores.empty();
+  return is_there ? page(call, "scores", std::move(scores), limit) : no_such_robot(call);
 }
 
 }  // namespace kidnapwatch::api

@@ -21,7 +21,8 @@ constexpr std::nullopt_t kAnybody = std::nullopt;
 constexpr std::array kRoutes{
     Route{"GET", "/api/v1/robots", "", Role::viewer, get_robots},
     Route{"GET", "/api/v1/robots/{id}", "", Role::viewer, get_robot},
-    Route{"GET", "/api/v1/robots/{id}/scores", "from to limit", Role::viewer, get_scores},
+    Route{"GET", "/api/v1/robots/{id}/scores", "from to resolution limit", Role::viewer,
+          get_scores},
     Route{"GET", "/api/v1/incidents", "robot state kind label from to cursor limit", Role::viewer,
           get_incidents},
     Route{"GET", "/api/v1/incidents/{id}", "", Role::viewer, get_incident},

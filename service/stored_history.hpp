@@ -43,6 +43,12 @@ class StoredHistory final : public api::History {
                                                 std::size_t limit) const override {
     return archive_.scores(robot, stamps.from, stamps.to, limit);
   }
+  [[nodiscard]] std::vector<core::ScoreBucket> score_buckets(const std::string& robot,
+                                                             api::TimeRange stamps,
+                                                             std::chrono::seconds resolution,
+                                                             std::size_t limit) const override {
+    return archive_.score_buckets(robot, stamps.from, stamps.to, resolution, limit);
+  }
   [[nodiscard]] std::vector<core::Incident> incidents(
       const api::IncidentQuery& query) const override {
     return archive_.incidents({.robot = query.robot,

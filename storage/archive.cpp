@@ -111,6 +111,16 @@ std::vector<core::Score> Archive::scores(const std::string& robot, core::Stamp f
   return storage::scores(lease, *recent(lease), robot, from, to, limit);
 }
 
+std::vector<core::ScoreBucket> Archive::score_buckets(const std::string& robot, core::Stamp from,
+                                                      core::Stamp to,
+                                                      std::chrono::seconds resolution,
+                                                      std::size_t limit) const {
+  const Lease lease(*this);
+  core::ScoreBuckets buckets(resolution, limit);
+  add_scores(lease, *recent(lease), robot, from, to, buckets);
+  return buckets.all();
+}
+
 std::vector<core::Incident> Archive::incidents(const IncidentFilter& filter) const {
   const Lease lease(*this);
   std::string where = "FROM incident WHERE true";

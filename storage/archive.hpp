@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/score_buckets.hpp"
 #include "storage/recent.hpp"
 #include "storage/records.hpp"
 #include "storage/sqlite.hpp"
@@ -31,6 +32,12 @@ class Archive {
   /// The robot's scores of from <= stamp < to, oldest first, at most `limit`.
   [[nodiscard]] std::vector<core::Score> scores(const std::string& robot, core::Stamp from,
                                                 core::Stamp to, std::size_t limit) const;
+
+  /// The same scores in buckets, oldest first, at most `limit` of them; see core::ScoreBuckets.
+  [[nodiscard]] std::vector<core::ScoreBucket> score_buckets(const std::string& robot,
+                                                             core::Stamp from, core::Stamp to,
+                                                             std::chrono::seconds resolution,
+                                                             std::size_t limit) const;
 
   /// Newest first: their ids are UUIDv7, so in the order of ids.
   [[nodiscard]] std::vector<core::Incident> incidents(const IncidentFilter& filter) const;

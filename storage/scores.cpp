@@ -140,6 +140,20 @@ std::vector<Score> scores(Database& database, const RecentScores& recent, const 
   return std::move(gathered.scores);
 }
 
+void add_scores(Database& database, const RecentScores& recent, const std::string& robot,
+                Stamp from, Stamp to, core::ScoreBuckets& buckets) {
+  const auto in_memory = recent.of(robot);  // first, as above
+  const auto known = segments(in_memory);
+  const auto add = [&](const Score& score) {
+    if (score.stamp >= from && score.stamp < to) buckets.add(score);
+  };
+  auto query = blocks_between(database, robot, from, to);
+  while (query.step() && !buckets.is_complete(query.stamp(0))) {
+    if (!known.contains(query.integer(1))) std::ranges::for_each(unpacked(query.blob(2)), add);
+  }
+  for (const auto& found : in_memory) add(found.arrived.score);
+}
+
 std::optional<RobotHistory> history(Database& database, const RecentScores& recent,
                                     const std::string& robot, std::size_t natural_scores) {
   auto in_memory = recent.of(robot);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/score_buckets.hpp"
 #include "storage/recent.hpp"
 #include "storage/records.hpp"
 #include "storage/sqlite.hpp"
@@ -17,6 +18,10 @@ namespace kidnapwatch::storage {
 [[nodiscard]] std::vector<core::Score> scores(Database& database, const RecentScores& recent,
                                               const std::string& robot, core::Stamp from,
                                               core::Stamp to, std::size_t limit);
+
+/// The same scores, added to `buckets` in any order: only what these keep takes memory.
+void add_scores(Database& database, const RecentScores& recent, const std::string& robot,
+                core::Stamp from, core::Stamp to, core::ScoreBuckets& buckets);
 
 /// Where the robot stood, with its last `natural_scores` natural scores; nothing if it has none.
 [[nodiscard]] std::optional<RobotHistory> history(Database& database, const RecentScores& recent,

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "adapters/codecs/rfc3339.hpp"
 #include "adapters/codecs/scan_encode.hpp"
@@ -51,13 +52,26 @@ std::string csv_cell(const core::Score& score, core::DetectorId detector) {
   return "," + (found == score.others.end() ? std::string() : number(shortest(found->score)));
 }
 
+std::string optional_cell(const std::optional<double>& value) {
+  return "," + (value ? number(*value) : std::string());
+}
+
 std::string motion_cells(const std::optional<core::MotionScore>& motion) {
   if (!motion) return ",,,,";
-  const auto cell = [](const std::optional<double>& value) {
-    return "," + (value ? number(*value) : std::string());
-  };
-  return cell(motion->score) + cell(motion->confirmed) + cell(motion->threshold) +
-         cell(motion->carry);
+  return optional_cell(motion->score) + optional_cell(motion->confirmed) +
+         optional_cell(motion->threshold) + optional_cell(motion->carry);
+}
+
+using Named = std::pair<const char*, core::Spread core::ScoreBucket::*>;
+constexpr std::array<Named, 5> kSpreads{{{"score", &core::ScoreBucket::cost},
+                                         {"scorePerBeam", &core::ScoreBucket::cost_per_beam},
+                                         {"motion", &core::ScoreBucket::motion},
+                                         {"motionConfirmed", &core::ScoreBucket::confirmed},
+                                         {"carry", &core::ScoreBucket::carry}}};
+
+std::string spread_cells(const core::Spread& spread) {
+  if (spread.count == 0) return ",,,";
+  return "," + number(spread.min) + "," + number(spread.max) + "," + number(spread.mean);
 }
 
 std::string csv_line(const core::Score& score) {
@@ -154,6 +168,33 @@ std::string scores_csv(std::span<const core::Score> scores) {
     if (has_motion) csv += motion_cells(score.motion);
     for (const auto detector : others) csv += csv_cell(score, detector);
     csv += "\r\n";
+  }
+  return csv;
+}
+
+Json json(const core::ScoreBucket& bucket) {
+  Json object{{"time", rfc3339(bucket.from)}, {"scores", bucket.scores}};
+  for (const auto& [name, spread] : kSpreads) {
+    const core::Spread& of = bucket.*spread;
+    if (of.count > 0) object[name] = {{"min", of.min}, {"max", of.max}, {"mean", of.mean}};
+  }
+  set(object, "threshold", bucket.threshold);
+  set(object, "motionThreshold", bucket.motion_threshold);
+  object["state"] = core::name(bucket.state);
+  return object;
+}
+
+std::string score_buckets_csv(std::span<const core::ScoreBucket> buckets) {
+  std::string csv = "time,scores";
+  for (const auto& [name, spread] : kSpreads) {
+    for (const char* of : {"Min", "Max", "Mean"}) csv.append(",").append(name).append(of);
+  }
+  csv += ",threshold,motionThreshold,state\r\n";
+  for (const auto& bucket : buckets) {
+    csv += rfc3339(bucket.from) + "," + std::to_string(bucket.scores);
+    for (const auto& [name, spread] : kSpreads) csv += spread_cells(bucket.*spread);
+    csv += optional_cell(bucket.threshold) + optional_cell(bucket.motion_threshold) + "," +
+           std::string(core::name(bucket.state)) + "\r\n";
   }
   return csv;
 }

@@ -10,6 +10,7 @@
 
 #include "adapters/codecs/json.hpp"
 #include "core/incident.hpp"
+#include "core/score_buckets.hpp"
 
 namespace kidnapwatch::adapters::codecs {
 
@@ -26,5 +27,10 @@ void set_care(Json& object, const core::Incident& incident);
 
 /// RFC 4180, a header line with the names of json(Score) first. An absent threshold is empty.
 [[nodiscard]] std::string scores_csv(std::span<const core::Score> scores);
+
+/// {min, max, mean} of each kind of score that there was.
+[[nodiscard]] Json json(const core::ScoreBucket& bucket);
+/// As scores_csv, with columns scoreMin, scoreMax, scoreMean and so on; empty where there was none.
+[[nodiscard]] std::string score_buckets_csv(std::span<const core::ScoreBucket> buckets);
 
 }  // namespace kidnapwatch::adapters::codecs

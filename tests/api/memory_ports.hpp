@@ -129,6 +129,17 @@ class MemoryHistory : public History {
     return found;
   }
 
+  [[nodiscard]] std::vector<core::ScoreBucket> score_buckets(const std::string& robot,
+                                                             TimeRange stamps,
+                                                             std::chrono::seconds resolution,
+                                                             std::size_t limit) const override {
+    core::ScoreBuckets buckets(resolution, limit);
+    for (const auto& score : scores(robot, stamps, all_scores.size())) {
+      buckets.add(score);
+    }
+    return buckets.all();
+  }
+
   [[nodiscard]] std::vector<core::Incident> incidents(const IncidentQuery& query) const override {
     std::vector<core::Incident> found;
     for (const auto& one : all_incidents) {

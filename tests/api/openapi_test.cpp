@@ -158,6 +158,13 @@ class OpenapiAnswersTest : public ApiTest {
     evidence.scores.resize(2);
     history.all_evidence.emplace_back("i1", evidence);
     history.all_scores = {{"r1", core::Score{}}, {"r1", core::Score{}}};
+    history.all_scores[1].second.stamp = at_s(90);
+    history.all_scores[1].second.threshold = 3.0;
+    history.all_scores[1].second.motion = core::MotionScore{.threshold = 4.5};
+    history.all_configs.resize(2);
+    history.all_configs[0].version = 2;
+    history.all_configs[0].robot = "r1";
+    history.all_configs[1].version = 1;
   }
 
   /// What is wrong with the answer to GET `target`, as `path` describes it.
@@ -177,6 +184,13 @@ TEST_F(OpenapiAnswersTest, FitTheirSchemas) {
            {"/api/v1/robots/{id}/scores", "/api/v1/robots/r1/scores"},
            {"/api/v1/robots/{id}/scores", "/api/v1/robots/r1/scores?limit=1"},
            {"/api/v1/robots/{id}/scores", "/api/v1/robots/r1/scores?limit=x"},
+           {"/api/v1/robots/{id}/scores", "/api/v1/robots/r1/scores?resolution=60"},
+           {"/api/v1/robots/{id}/scores", "/api/v1/robots/r1/scores?resolution=60&limit=1"},
+           {"/api/v1/robots/{id}/config", "/api/v1/robots/r1/config"},
+           {"/api/v1/robots/{id}/config", "/api/v1/robots/r3/config"},
+           {"/api/v1/config/history", "/api/v1/config/history"},
+           {"/api/v1/config/history", "/api/v1/config/history?limit=1"},
+           {"/api/v1/config/history", "/api/v1/config/history?cursor=x"},
            {"/api/v1/incidents", "/api/v1/incidents"},
            {"/api/v1/incidents", "/api/v1/incidents?limit=1"},
            {"/api/v1/incidents/{id}", "/api/v1/incidents/i1"},

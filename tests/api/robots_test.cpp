@@ -88,6 +88,39 @@ TEST_F(RobotsTest, TellScoresAsCsvToWhomPrefersIt) {
             "</api/v1/robots/r1/scores?from=1970-01-01T00:00:01.000000000Z&limit=1>; rel=\"next\"");
 }
 
+TEST_F(RobotsTest, TellScoresByTheMinute) {
+  const Json body_ = body(get("/api/v1/robots/r1/scores?resolution=2"));
+  ASSERT_EQ(body_.at("buckets").size(), 3U);
+  EXPECT_EQ(body_.at("buckets").at(1).dump(),
+            R"({"time":"1970-01-01T00:00:02.000000000Z","scores":2,)"
+            R"("score":{"min":2.0,"max":3.0,"mean":2.5},)"
+            R"("scorePerBeam":{"min":0.0,"max":0.0,"mean":0.0},"state":"unknown"})");
+  const auto page = get("/api/v1/robots/r1/scores?resolution=2&limit=2");
+  EXPECT_EQ(body(page).at("buckets").size(), 2U);
+  EXPECT_EQ(body(page).at("next"),
+            "/api/v1/robots/r1/scores?from=1970-01-01T00:00:04.000000000Z&limit=2&resolution=2");
+  EXPECT_EQ(get("/api/v1/robots/never/scores?resolution=2").status, 404);
+}
+
+TEST_F(RobotsTest, TellBucketsAsCsvToWhomPrefersIt) {
+  const auto response = get("/api/v1/robots/r1/scores?resolution=60", {{"Accept", "text/csv"}});
+  EXPECT_EQ(response.content_type, "text/csv; charset=utf-8; header=present");
+  EXPECT_EQ(response.body,
+            "time,scores,scoreMin,scoreMax,scoreMean,scorePerBeamMin,scorePerBeamMax,"
+            "scorePerBeamMean,motionMin,motionMax,motionMean,motionConfirmedMin,"
+            "motionConfirmedMax,motionConfirmedMean,carryMin,carryMax,carryMean,threshold,"
+            "motionThreshold,state\r\n"
+            "1970-01-01T00:00:00.000000000Z,5,0,4,2,0,0,0,,,,,,,,,,,,unknown\r\n");
+}
+
+TEST_F(RobotsTest, RefuseAResolutionThatIsNone) {
+  for (const char* resolution : {"", "0", "-1", "1.5", "1m", "86401", "99999999999"}) {
+    const auto response = get(std::string("/api/v1/robots/r1/scores?resolution=") + resolution);
+    EXPECT_EQ(response.status, 400) << resolution;
+    EXPECT_EQ(body(response).value("field", "none"), "resolution");
+  }
+}
+
 TEST_F(RobotsTest, RefuseARangeThatIsNone) {
   const auto field = [&](const std::string& query) {
     const auto response = get("/api/v1/robots/r1/scores?" + query);
