@@ -11,6 +11,7 @@
 #include "api/problem.hpp"
 #include "api/robots.hpp"
 #include "api/service.hpp"
+#include "api/tuning.hpp"
 #include "core/bad_input.hpp"
 
 namespace kidnapwatch::api {
@@ -42,6 +43,9 @@ constexpr std::array kRoutes{
     Route{"PUT", "/api/v1/robots/{id}/config", "", Role::admin, put_config},
     Route{"PATCH", "/api/v1/robots/{id}/config", "", Role::admin, patch_config},
     Route{"DELETE", "/api/v1/robots/{id}/config", "", Role::admin, delete_config},
+    Route{"POST", "/api/v1/thresholds:preview", "", Role::operator_, preview_threshold},
+    Route{"POST", "/api/v1/thresholds:calibrate", "", Role::operator_, calibrate_threshold},
+    Route{"GET", "/api/v1/evaluation/roc", "detector robot from to", Role::viewer, get_roc},
     Route{"GET", "/api/v1/service", "", Role::viewer, get_service},
     Route{"GET", "/api/v1/openapi.json", "", kAnybody, get_openapi},
     Route{"GET", "/healthz", "", kAnybody, get_health},

@@ -163,6 +163,7 @@ Service::Parts::Parts(const Settings& settings)
                         .port = settings.http_port,
                         .cert_file = settings.http_cert_file,
                         .key_file = settings.http_key_file,
+                        .threads = 2,  // one may compute a threshold
                         .max_connections = settings.http_max_connections,
                         .max_connections_per_peer = (settings.http_max_connections + 1) / 2},
       [this](const api::Request& request) {

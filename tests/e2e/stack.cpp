@@ -86,8 +86,12 @@ std::string Stack::get_text(const std::string& path) const {
 Json Stack::get(const std::string& path) const { return Json::parse(get_text(path)); }
 
 Json Stack::post(const std::string& path, const std::string& body) const {
-  return Json::parse(output_of({"curl", "-s", "-m", "20", "-H", "Content-Type: application/json",
-                                "-d", body, url() + path}));
+  return ask("POST", path, body);
+}
+
+Json Stack::ask(const std::string& method, const std::string& path, const std::string& body) const {
+  return Json::parse(output_of({"curl", "-s", "-m", "20", "-X", method, "-H",
+                                "Content-Type: application/json", "-d", body, url() + path}));
 }
 
 int Stack::status_of(const std::string& path, const std::string& token) const {

@@ -48,6 +48,9 @@ class Stack {
   [[nodiscard]] Json get(const std::string& path) const;
   /// The answer, whatever the status.
   [[nodiscard]] Json post(const std::string& path, const std::string& body) const;
+  /// By any method.
+  [[nodiscard]] Json ask(const std::string& method, const std::string& path,
+                         const std::string& body) const;
   /// With a bearer token, unless that is empty.
   [[nodiscard]] int status_of(const std::string& path, const std::string& token = "") const;
   /// Scans counted by the service under this outcome, or under all.
