@@ -108,6 +108,7 @@ TEST_F(TuningTest, RefusesWhatIsNoPreview) {
 
 TEST_F(TuningTest, CalibratesToARate) {
   std::vector<double> costs;
+  costs.reserve(500);
   for (int i = 0; i < 500; ++i) costs.push_back(10.0 + i % 50);
   drive("r1", costs);
   const auto response = post(calibrate, R"({"detector":"qs2ddtw","falseAlarmRate":0.01})");

@@ -35,8 +35,10 @@ TEST(ScoreBuckets, KeepTheSpikeBesideTheMean) {
 TEST(ScoreBuckets, BeginAtMultiplesOfTheResolution) {
   ScoreBuckets buckets(seconds(10), 100);
   for (const double at_s : {-0.1, 0.0, 9.999, 10.0, 35.0}) buckets.add(score(at_s, 1.0));
+  const auto all = buckets.all();
   std::vector<std::int64_t> starts;
-  for (const auto& bucket : buckets.all()) {
+  starts.reserve(all.size());
+  for (const auto& bucket : all) {
     starts.push_back(ns_since_epoch(bucket.from) / 1'000'000'000);
   }
   EXPECT_EQ(starts, (std::vector<std::int64_t>{-10, 0, 10, 30}));

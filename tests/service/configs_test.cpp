@@ -112,6 +112,7 @@ TEST_F(ConfigsTest, TakesUpWhatWasSaved) {
 TEST_F(ConfigsTest, OfManyWhoSawTheSameVersionOneWins) {
   std::atomic<int> won = 0;
   std::vector<std::thread> rivals;
+  rivals.reserve(4);
   for (int i = 0; i < 4; ++i) {
     rivals.emplace_back([&] {
       try {
