@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The service's state in Prometheus' words, counted when it is asked for.
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -78,6 +79,20 @@ MetricFamily robots(const std::vector<core::RobotStatus>& robots) {
   return result;
 }
 
+MetricFamily histogram(const char* name, const char* help, const core::Durations& durations) {
+  auto result = family(MetricType::Histogram, name, help);
+  auto& histogram = result.metric.emplace_back().histogram;
+  histogram.sample_sum = durations.sum_s();
+  for (std::size_t i = 0; i < durations.counts().size(); ++i) {
+    histogram.sample_count += durations.counts().at(i);
+    const bool is_last = i == core::Durations::kBounds_s.size();
+    histogram.bucket.push_back(
+        {histogram.sample_count,
+         is_last ? std::numeric_limits<double>::infinity() : core::Durations::kBounds_s.at(i)});
+  }
+  return result;
+}
+
 MetricFamily build(const std::string& version) {
   auto result =
       family(MetricType::Gauge, "kidnapwatch_build_info", "Always 1; which version this is.");
@@ -97,6 +112,10 @@ std::vector<MetricFamily> families(const Fleet& fleet) {
       scans(status.counts),
       commands(status.commands),
       robots(fleet.robots()),
+      histogram("kidnapwatch_scan_judging_seconds",
+                "From a scan's arrival until it is judged and its alert on its way.",
+                status.judging),
+      histogram("kidnapwatch_store_commit_seconds", "Commits of the store.", status.commits),
       single(gauge, "kidnapwatch_queued_scans", "Scans that wait to be scored.",
              number(status.queued_scans)),
       single(gauge, "kidnapwatch_queued_writes", "Records that wait to be stored.",

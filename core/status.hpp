@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/durations.hpp"
 #include "core/outcome.hpp"
 #include "core/robot_command.hpp"
 #include "core/session.hpp"
@@ -43,6 +44,8 @@ struct ServiceStatus {
   std::uint64_t queued_scans = 0;     ///< waiting in all lanes
   std::uint64_t queued_writes = 0;    ///< waiting for the store
   std::uint64_t lost_writes = 0;      ///< refused because the store's queue was full
+  Durations judging;                  ///< from a scan's arrival until its alert is on its way
+  Durations commits;                  ///< of the store
   std::vector<Degradation> degraded;  ///< empty: all is well
   OutcomeCounts counts{};             ///< of all robots and of messages that belong to none
   CommandCounts commands{};           ///< by MQTT

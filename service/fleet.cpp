@@ -118,6 +118,7 @@ void Fleet::describe(core::ServiceStatus& status) const {
   status.queued_scans = 0;
   for (const auto& lane : lanes_) {
     status.queued_scans += lane->queued();
+    status.judging += lane->judging();
   }
 }
 

@@ -62,6 +62,7 @@ bool Lane::put(Inbox& inbox, Message message) {
 void Lane::push(Watch& watch, Message message) {
   const bool is_scan = message.kind == MessageKind::scan;
   bool lost_scan = false;
+  message.queued = std::chrono::steady_clock::now();
   {
     const std::lock_guard lock(mutex_);
     Inbox& inbox = inboxes_.at(&watch);
@@ -77,6 +78,11 @@ void Lane::push(Watch& watch, Message message) {
 std::size_t Lane::queued() const {
   const std::lock_guard lock(mutex_);
   return queued_;
+}
+
+core::Durations Lane::judging() const {
+  const std::lock_guard lock(mutex_);
+  return judging_;
 }
 
 void Lane::stop() {
@@ -111,7 +117,9 @@ void Lane::run() {
       const Message message = next(inbox);
       lock.unlock();
       inbox.watch->take(message, bench_);
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - message.queued;
       lock.lock();
+      if (message.kind == MessageKind::scan) judging_.add(took.count());
     } else if (stopping_) {
       return;
     }

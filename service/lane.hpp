@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/durations.hpp"
 #include "service/watch.hpp"
 
 namespace kidnapwatch::service {
@@ -40,6 +41,8 @@ class Lane {
   /// `watch` was added to this lane.
   void push(Watch& watch, Message message);
   [[nodiscard]] std::size_t queued() const;
+  /// Of scans, from push() until the watch is done with them.
+  [[nodiscard]] core::Durations judging() const;
 
   /// Finishes what is queued; returns when it is done.
   void stop();
@@ -67,6 +70,7 @@ class Lane {
   std::map<const Watch*, Inbox> inboxes_;
   std::deque<Inbox*> ready_;  // each inbox with messages, once
   std::size_t queued_ = 0;
+  core::Durations judging_;
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -355,6 +355,7 @@ core::ServiceStatus Service::Parts::status() const {
   status.store_healthy = writer_.healthy();
   status.queued_writes = writer_.queued();
   status.lost_writes = writer_.lost();
+  status.commits = writer_.commits();
   status.degraded = degraded(status);
   return status;
 }

@@ -2,6 +2,7 @@
 // One robot being watched: its payloads in, announcements out, its status for anyone who looks.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -36,6 +37,7 @@ struct Message {
   core::Stamp arrival;
   MessageKind kind = MessageKind::scan;
   Order order = {};  ///< of that kind
+  std::chrono::steady_clock::time_point queued = {};
 };
 
 /// What a thread needs to take scans, whatever robot they are of. It holds no state of a robot.

@@ -165,6 +165,11 @@ class Writer::Thread {
 
   [[nodiscard]] std::shared_ptr<const RecentScores> recent() const { return segments_.recent(); }
 
+  [[nodiscard]] core::Durations commits() const {
+    const std::lock_guard lock(mutex_);
+    return commits_;
+  }
+
  private:
   void lose(core::Stamp arrival) {
     ++lost_;
@@ -248,8 +253,12 @@ class Writer::Thread {
   bool try_to_write(Batch& batch) {
     std::exception_ptr failure;
     std::string problem;
+    const auto begin = Clock::now();
     try {
       write(batch);
+      const std::chrono::duration<double> took = Clock::now() - begin;
+      const std::lock_guard lock(mutex_);
+      commits_.add(took.count());
     } catch (const StorageError& error) {
       segments_.undone();
       crash_mark_.undone();
@@ -317,6 +326,7 @@ class Writer::Thread {
   core::Stamp latest_arrival_{};
 
   mutable std::mutex mutex_;
+  core::Durations commits_;
   std::condition_variable changed_;
   Batch queue_;
   std::size_t writing_ = 0;  // scores taken from the queue and not yet durable
@@ -369,6 +379,8 @@ std::future<void> Writer::flush() {
 std::uint64_t Writer::queued() const { return thread_->queued(); }
 
 std::uint64_t Writer::lost() const { return thread_->lost(); }
+
+core::Durations Writer::commits() const { return thread_->commits(); }
 
 bool Writer::healthy() const { return thread_->problem().empty(); }
 

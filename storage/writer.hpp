@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/durations.hpp"
 #include "storage/records.hpp"
 #include "storage/retention.hpp"
 #include "storage/segments.hpp"
@@ -66,10 +67,11 @@ class Writer {
   /// write it fails. Any thread.
   std::future<void> flush();
 
-  [[nodiscard]] std::uint64_t queued() const;  ///< scores not yet durable
-  [[nodiscard]] std::uint64_t lost() const;    ///< scores, changes and entries refused
-  [[nodiscard]] bool healthy() const;          ///< the last commit succeeded
-  [[nodiscard]] std::string problem() const;   ///< why it did not; empty if healthy
+  [[nodiscard]] std::uint64_t queued() const;     ///< scores not yet durable
+  [[nodiscard]] std::uint64_t lost() const;       ///< scores, changes and entries refused
+  [[nodiscard]] core::Durations commits() const;  ///< how long each took that succeeded
+  [[nodiscard]] bool healthy() const;             ///< the last commit succeeded
+  [[nodiscard]] std::string problem() const;      ///< why it did not; empty if healthy
   /// Where a damaged file was put aside when this Writer started, with a fresh one in its place.
   [[nodiscard]] const std::optional<std::filesystem::path>& quarantined() const;
   /// For an Archive beside this Writer.

@@ -64,6 +64,9 @@ TEST_F(ServiceTest, CountsInPrometheusWords) {
   status.queued_writes = 2;
   status.lost_writes = 3;
   status.broker_connected = true;
+  status.judging.add(0.0025);
+  status.judging.add(9.0);
+  status.commits.add(0.004);
   fleet.robots_now.resize(2);
   fleet.robots_now[0].state = core::RobotState::kidnapped;
   EXPECT_TRUE(has_metric("# TYPE kidnapwatch_scans_total counter"));
@@ -71,10 +74,15 @@ TEST_F(ServiceTest, CountsInPrometheusWords) {
        {R"(kidnapwatch_scans_total{outcome="scored"} 7)", R"(kidnapwatch_robots{state="stale"} 0)",
         R"(kidnapwatch_scans_total{outcome="failed"} 0)",
         R"(kidnapwatch_robots{state="kidnapped"} 1)", R"(kidnapwatch_robots{state="unknown"} 1)",
-        "kidnapwatch_queued_scans 1", "kidnapwatch_queued_writes 2",
-        "kidnapwatch_lost_writes_total 3", "kidnapwatch_broker_connected 1",
-        "kidnapwatch_store_healthy 0", "kidnapwatch_config_version 0",
-        "kidnapwatch_start_time_seconds 5", R"(kidnapwatch_build_info{version="0.1.0"} 1)"}) {
+        R"(kidnapwatch_scan_judging_seconds_bucket{le="0.001"} 0)",
+        R"(kidnapwatch_scan_judging_seconds_bucket{le="0.0025"} 1)",
+        R"(kidnapwatch_scan_judging_seconds_bucket{le="+Inf"} 2)",
+        "kidnapwatch_scan_judging_seconds_count 2", "kidnapwatch_scan_judging_seconds_sum 9.0025",
+        "kidnapwatch_store_commit_seconds_count 1", "kidnapwatch_queued_scans 1",
+        "kidnapwatch_queued_writes 2", "kidnapwatch_lost_writes_total 3",
+        "kidnapwatch_broker_connected 1", "kidnapwatch_store_healthy 0",
+        "kidnapwatch_config_version 0", "kidnapwatch_start_time_seconds 5",
+        R"(kidnapwatch_build_info{version="0.1.0"} 1)"}) {
     EXPECT_TRUE(has_metric(line)) << line << "\n" << get("/metrics").body;
   }
 }

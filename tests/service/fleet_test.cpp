@@ -65,6 +65,9 @@ TEST_F(FleetTest, CountsEveryMessageOfManyPublishersOnce) {
   fleet.describe(status);
   EXPECT_EQ(std::accumulate(status.counts.begin(), status.counts.end(), std::uint64_t{0}),
             std::uint64_t{kPublishers} * kScans);
+  const auto& judged = status.judging.counts();
+  EXPECT_EQ(std::accumulate(judged.begin(), judged.end(), std::uint64_t{0}),
+            std::uint64_t{kPublishers} * kScans - counted(fleet, Outcome::overload));
   EXPECT_EQ(status.robots, 7U);
   EXPECT_EQ(status.queued_scans, 0U);
 }

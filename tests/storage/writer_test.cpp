@@ -3,6 +3,7 @@
 #include "storage/writer.hpp"
 
 #include <csignal>
+#include <numeric>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -39,6 +40,9 @@ TEST_F(WriterTest, ScoresAreThereAfterTheirCommit) {
   while (writer.queued() > 0) std::this_thread::yield();
   EXPECT_EQ(stored_scores(), 1U);
   EXPECT_TRUE(writer.healthy());
+  const auto commits = writer.commits();
+  EXPECT_EQ(std::accumulate(commits.counts().begin(), commits.counts().end(), 0), 1);
+  EXPECT_GT(commits.sum_s(), 0.0);
 }
 
 TEST_F(WriterTest, ScoresWaitForEachOther) {
