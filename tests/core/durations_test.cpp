@@ -26,7 +26,7 @@ TEST(Durations, AddUp) {
   both.add(0.5);
   both += one;
   EXPECT_DOUBLE_EQ(both.sum_s(), 0.75);
-  EXPECT_EQ(std::accumulate(both.counts().begin(), both.counts().end(), 0), 2);
+  EXPECT_EQ(std::accumulate(both.counts().begin(), both.counts().end(), std::uint64_t{0}), 2U);
 }
 
 }  // namespace

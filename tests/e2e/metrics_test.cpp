@@ -36,7 +36,8 @@ TEST_F(Metrics, ArePlainToPrometheus) {
 }
 
 TEST_F(Metrics, RaiseTheAlertsThatTheRulesPromise) {
-  const auto said = output_of({"promtool", "test", "rules", KW_SOURCE "/tests/e2e/kidnapwatch.rules_test.yml"});
+  const auto said =
+      output_of({"promtool", "test", "rules", KW_SOURCE "/tests/e2e/kidnapwatch.rules_test.yml"});
   EXPECT_NE(said.find("SUCCESS"), std::string::npos) << said;
 }
 

@@ -41,7 +41,8 @@ TEST_F(WriterTest, ScoresAreThereAfterTheirCommit) {
   EXPECT_EQ(stored_scores(), 1U);
   EXPECT_TRUE(writer.healthy());
   const auto commits = writer.commits();
-  EXPECT_EQ(std::accumulate(commits.counts().begin(), commits.counts().end(), 0), 1);
+  EXPECT_EQ(std::accumulate(commits.counts().begin(), commits.counts().end(), std::uint64_t{0}),
+            1U);
   EXPECT_GT(commits.sum_s(), 0.0);
 }
 
