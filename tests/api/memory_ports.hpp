@@ -64,7 +64,7 @@ class MemoryFleet : public Fleet {
     }
     auto next = levels;
     set(next, robot, values, author);
-    const auto result = view(robot, next);
+    auto result = view(robot, next);
     core::check(result.effective.config);
     levels = next;
     return result;
