@@ -216,6 +216,7 @@ float Habits::allowance(const Features& features) const {
 }
 
 float Habits::usual_violation() const {
+  if (pairs() < kRescaleEvery) return 0.0F;
   return std::exp(scales_[index(Feature::violating)].q90) - kShareFloor;
 }
 

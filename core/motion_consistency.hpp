@@ -93,7 +93,8 @@ class Habits {
   /// How much more this robot moved than it uses to, in the unit of the clues: new things come
   /// into sight then, and old ones go.
   [[nodiscard]] float allowance(const Features& features) const;
-  /// Share of violating points that this robot's natural pairs reach one time in ten.
+  /// Share of violating points that this robot's natural pairs reach one time in ten; 0 while next
+  /// to nothing was learned.
   [[nodiscard]] float usual_violation() const;
 
   [[nodiscard]] const std::array<Tail, kFeatures>& tails() const { return tails_; }

@@ -60,6 +60,10 @@ TEST_F(MotionDetectorTest, WarmsUpBeforeItHasAThreshold) {
   EXPECT_TRUE(step().threshold);
 }
 
+TEST_F(MotionDetectorTest, CallsNothingTroubleWhileItKnowsNothingOfTheRobot) {
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(step().trouble) << i;
+}
+
 TEST_F(MotionDetectorTest, RaisesNothingOnANaturalDrive) {
   drive(600);
   EXPECT_EQ(alarms_, 0);
