@@ -26,6 +26,7 @@ void judge(const Contour& observer, const Contour& seen, const Pose& pose,
   const float sector_beams = static_cast<float>(kSectors) *
                              static_cast<float>(std::abs(observer.geometry.angle_increment_rad)) /
                              (2.0F * std::numbers::pi_v<float>);
+  const bool same_beams = seen.beams == observer.beams;
   for (std::size_t i = 0; i < seen.valid; ++i) {
     const float x = c * seen.px[i] - s * seen.py[i] + tx;
     const float y = s * seen.px[i] + c * seen.py[i] + ty;
@@ -36,7 +37,8 @@ void judge(const Contour& observer, const Contour& seen, const Pose& pose,
     const float tolerance = kTolerance_m + kToleranceShare * r;
     const auto at = static_cast<std::size_t>(static_cast<float>(beam) * sector_beams);
     const bool unseen = observer.far_m[k] <= 0.0F;
-    const bool through = unseen ? r < reach : r < observer.near_m[k] - tolerance;
+    const bool blind = unseen && same_beams && seen.far_m[k] <= 0.0F;
+    const bool through = !blind && (unseen ? r < reach : r < observer.near_m[k] - tolerance);
     const bool fits = !unseen && !through && r < observer.far_m[k] + tolerance;
     const bool passing = through ? seen.foreground[seen.pbeam[i]] : observer.foreground[k];
     if (passing && !fits) continue;  // people come and go, and hide what is behind them

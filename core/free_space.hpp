@@ -25,7 +25,9 @@ using Tallies = std::array<Tally, 2 * kSectors>;
 /// Holds the points of each scan against the free space of the other. `motion` is T_before_now of
 /// the sensor. A point is consistent within 0.10 m + 3 % of its range of what a beam and its two
 /// neighbours measured; nearer, it violates; farther, it is hidden and says nothing. Where the
-/// other scan saw nothing at all, a point within 0.8 range_max violates. What is in the foreground
+/// other scan saw nothing at all, a point within 0.8 range_max violates, unless its own scan saw
+/// nothing along that beam either (parts of a robot stand in the way of its lidar): that says
+/// nothing. What is in the foreground
 /// (Contour::foreground) never violates, and what it hides does not count.
 [[nodiscard]] Tallies contradictions(const Contour& before, const Contour& now, const Pose& motion);
 

@@ -50,6 +50,22 @@ TEST(FreeSpace, APointWhereTheOtherSawNothingViolatesOnlyWithinReach) {
   EXPECT_FLOAT_EQ(between(nothing, round_room(8.1, at_s(0.0), 120)).violating, 0.0F);
 }
 
+/// The scan of a lidar whose own robot stands in the way of some beams.
+Scan blinkered(Scan scan) {
+  for (std::size_t i = 40; i < 60; ++i) scan.ranges_m[i] = 0.0F;
+  return scan;
+}
+
+TEST(FreeSpace, ABeamThatIsBlindInBothScansContradictsNothing) {
+  const Walls walls = furnished_room();
+  const Pose from{4.0, 2.0, 0.3};
+  const Pose motion{0.06, 0.0, 0.2};  // what is within the tolerance of a point, but turns
+  const Scan before = blinkered(seen_from(walls, from));
+  const Scan now = blinkered(seen_from(walls, from * motion));
+  EXPECT_FLOAT_EQ(between(before, now, motion).violating, 0.0F);
+  EXPECT_GT(between(before, seen_from(walls, from * motion), motion).violating, 0.0F);
+}
+
 /// The scan with something in front of beams 30 to 30 + `beams`.
 Scan hidden(Scan scan, std::size_t beams) {
   for (std::size_t i = 30; i < 30 + beams; ++i) scan.ranges_m[i] = 1.0F;
