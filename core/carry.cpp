@@ -15,7 +15,6 @@ constexpr float kWayFloor_m = 0.05F;   // sums below this are nothing
 constexpr float kTurnFloor_rad = 0.03F;
 constexpr float kScaleMin = 0.2F;  // least mean excess of a logarithm
 constexpr float kStepMax = 6.0F;
-constexpr float kSlack = 1.0F;  // subtracted per scan, beside the natural mean
 constexpr float kMeanRate = 0.01F;
 constexpr float kWarmup_pairs = 60.0F;
 
@@ -33,7 +32,8 @@ double amount(const Pose& motion) {
 
 }  // namespace
 
-Carry::Carry() : way_(-3.5F, 4.0F, 2000.0F), turn_(-4.0F, 2.0F, 2000.0F) {}
+Carry::Carry(float slack)
+    : slack_(slack), way_(-3.5F, 4.0F, 2000.0F), turn_(-4.0F, 2.0F, 2000.0F) {}
 
 float Carry::observe(const Pose& expected, const Pose& seen, bool natural) {
   const Pose all = inverse(expected) * seen;
@@ -51,7 +51,7 @@ float Carry::observe(const Pose& expected, const Pose& seen, bool natural) {
   const bool warm = way_.count() >= kWarmup_pairs;
   const float step =
       warm && alone ? std::min(unusual(way_, way) + unusual(turn_, turn), kStepMax) : 0.0F;
-  cusum_ = std::max(0.0F, cusum_ + step - mean_ - kSlack);
+  cusum_ = std::max(0.0F, cusum_ + step - mean_ - slack_);
   if (natural && cusum_ < 0.5F * kAlarm) {
     way_.learn(way);
     turn_.learn(turn);

@@ -2,6 +2,7 @@
 // A robot that is carried off slowly: every scan fits the one before, but the way adds up.
 #pragma once
 
+#include "core/motion_tuning.hpp"
 #include "core/pose.hpp"
 #include "core/tail.hpp"
 
@@ -12,7 +13,8 @@ namespace kidnapwatch::core {
 /// CUSUM over how unusual that sum is for this robot decides.
 class Carry {
  public:
-  Carry();
+  /// `slack` is subtracted from the CUSUM per scan, beside what natural pairs add.
+  explicit Carry(float slack = MotionTuning{}.carry_slack);
 
   /// Takes the next pair: both motions are T_before_now of the sensor. `natural`: nothing is wrong
   /// otherwise, so that it may be learned from. Returns the CUSUM: kAlarm is an alarm.
@@ -35,6 +37,7 @@ class Carry {
   static constexpr float kAlarm = 30.0F;
 
  private:
+  float slack_;
   Tail way_;
   Tail turn_;
   Pose drift_;

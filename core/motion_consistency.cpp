@@ -18,12 +18,8 @@ constexpr double kSeedTurn_rad = 0.03;   // a turn of the range profile that is 
 constexpr double kTurnReach_rad = 0.8;   // of the range profile, if the field of view is partial
 constexpr double kSearchStep_rad = 0.25;
 constexpr std::size_t kSectorsMin = 4;
-constexpr float kScaleMin = 0.2F;  // least mean excess of a log feature: 20 %
 constexpr float kClueMax = 25.0F;
-constexpr float kElsewhereFactor = 1.5F;
-constexpr double kDoubt = 0.75;         // share of told against expected that is tolerated
 constexpr double kGraveDoubt_m = 0.15;  // and 0.7 of it in radians: believe whichever fits
-constexpr float kAfter = 1.25F;         // weight of what the pair after a jump shows as well
 constexpr int kRescaleEvery = 8;
 
 std::size_t index(Feature feature) { return static_cast<std::size_t>(feature); }
@@ -117,16 +113,17 @@ bool differ(const Pose& a, const Pose& b, double by) {
 float log_share(double value) { return std::log(static_cast<float>(value) + kShareFloor); }
 
 /// The features of `seen` and `at_expected` against `expected`.
-Features features_of(const Comparison& pair, const Pose& expected, const Agreement& at_expected) {
+Features features_of(const Comparison& pair, const Pose& expected, const Agreement& at_expected,
+                     double doubt) {
   const double way = std::hypot(pair.claim.told.x_m, pair.claim.told.y_m);
   const double turning = std::abs(pair.claim.told.theta_rad);
   const double doubt_m = distance_m(pair.claim.told, pair.claim.expected);
   const double doubt_rad =
       std::abs(wrapped(pair.claim.told.theta_rad - pair.claim.expected.theta_rad));
   const double shift =
-      distance_m(pair.seen, expected) / (0.02 + 0.1 * way + 0.05 * turning + kDoubt * doubt_m);
+      distance_m(pair.seen, expected) / (0.02 + 0.1 * way + 0.05 * turning + doubt * doubt_m);
   const double turn = std::abs(wrapped(pair.seen.theta_rad - expected.theta_rad)) /
-                      (0.01 + 0.05 * way + 0.1 * turning + kDoubt * doubt_rad);
+                      (0.01 + 0.05 * way + 0.1 * turning + doubt * doubt_rad);
   return {log_share(pair.at_seen.violating),
           log_share(pair.at_seen.violating_elsewhere),
           log_share(1.0F - at_expected.consistent),
@@ -141,7 +138,8 @@ Features features_of(const Comparison& pair, const Pose& expected, const Agreeme
 
 }  // namespace
 
-Comparison compare(const Contour& before, const Contour& now, const Claim& claim) {
+Comparison compare(const Contour& before, const Contour& now, const Claim& claim,
+                   const MotionTuning& tuning) {
   Comparison pair;
   pair.claim = claim;
   Agreement at_expected;
@@ -152,21 +150,22 @@ Comparison compare(const Contour& before, const Contour& now, const Claim& claim
   pair.matches = best.matches;
   pair.at_seen = best.agreement;
   pair.judged = best.agreement.sectors >= kSectorsMin;
-  pair.features = features_of(pair, claim.expected, at_expected);
+  pair.features = features_of(pair, claim.expected, at_expected, tuning.doubt);
   pair.lenient = pair.features;
   if (!differ(claim.told, claim.expected, 0.01)) return pair;
   const Agreement at_told = agreement(contradictions(before, now, claim.told));
   const Agreement& better = at_told.quality() > at_expected.quality() ? at_told : at_expected;
-  pair.lenient = features_of(pair, nearest_between(claim.expected, claim.told, pair.seen), better);
+  pair.lenient = features_of(pair, nearest_between(claim.expected, claim.told, pair.seen), better,
+                             tuning.doubt);
   if (differ(claim.told, claim.expected, kGraveDoubt_m))
-    pair.features = features_of(pair, claim.expected, better);
+    pair.features = features_of(pair, claim.expected, better, tuning.doubt);
   return pair;
 }
 
 Clues confirmed(const Clues& before_now, const Clues& before_next, const Clues& now_next,
-                const Clues& earlier) {
-  const auto both = [](float a, float b, float after) {
-    return std::max(0.0F, std::min(a, b) - kAfter * after);
+                const Clues& earlier, float after_weight) {
+  const auto both = [after_weight](float a, float b, float after) {
+    return std::max(0.0F, std::min(a, b) - after_weight * after);
   };
   return {both(before_now.misfit, before_next.misfit, now_next.misfit),
           both(before_now.unmatched, before_next.unmatched, now_next.unmatched),
@@ -175,11 +174,12 @@ Clues confirmed(const Clues& before_now, const Clues& before_next, const Clues& 
           both(before_now.turn, before_next.turn, std::max(now_next.turn, earlier.turn))};
 }
 
-Habits::Habits()
-    : tails_{Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
-             Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
-             Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
-             Tail(-2.5F, 5.0F, 2000.0F)} {}
+Habits::Habits(const MotionTuning& tuning)
+    : tuning_(tuning), tails_{Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
+                              Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
+                              Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
+                              Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F),
+                              Tail(-2.5F, 5.0F, 2000.0F), Tail(-2.5F, 5.0F, 2000.0F)} {}
 
 void Habits::learn(const Features& features) {
   for (std::size_t i = 0; i < kFeatures; ++i) tails_[i].learn(features[i]);
@@ -191,7 +191,8 @@ void Habits::rescale() {
   for (std::size_t i = 0; i < kFeatures; ++i) {
     const float q90 = tails_[i].quantile(0.9F);
     const Tail::Excess excess = tails_[i].excess(q90);
-    scales_[i] = {q90, std::max(excess.count > 0.0F ? excess.sum / excess.count : 0.0F, kScaleMin)};
+    scales_[i] = {
+        q90, std::max(excess.count > 0.0F ? excess.sum / excess.count : 0.0F, tuning_.scale_min)};
   }
 }
 
@@ -203,11 +204,11 @@ float Habits::unusual(Feature feature, const Features& features) const {
 Clues Habits::clues(const Features& features) const {
   using enum Feature;
   return {std::min(unusual(violating, features),
-                   kElsewhereFactor * unusual(violating_elsewhere, features)),
+                   tuning_.elsewhere_factor * unusual(violating_elsewhere, features)),
           std::min(unusual(unmatched, features),
-                   kElsewhereFactor * unusual(unmatched_elsewhere, features)),
+                   tuning_.elsewhere_factor * unusual(unmatched_elsewhere, features)),
           std::min(unusual(inconsistent, features),
-                   kElsewhereFactor * unusual(inconsistent_elsewhere, features)),
+                   tuning_.elsewhere_factor * unusual(inconsistent_elsewhere, features)),
           unusual(shift, features), unusual(turn, features)};
 }
 

@@ -11,6 +11,7 @@
 #include "core/alignment.hpp"
 #include "core/contour.hpp"
 #include "core/free_space.hpp"
+#include "core/motion_tuning.hpp"
 #include "core/pose.hpp"
 #include "core/tail.hpp"
 
@@ -55,7 +56,8 @@ struct Comparison {
 };
 
 /// Aligns the scans from up to three seeds and tells the features. Allocates nothing.
-[[nodiscard]] Comparison compare(const Contour& before, const Contour& now, const Claim& claim);
+[[nodiscard]] Comparison compare(const Contour& before, const Contour& now, const Claim& claim,
+                                 const MotionTuning& tuning = {});
 
 /// How strongly a pair speaks against the robot having moved as expected; each >= 0, in units of
 /// this robot's own mean excess, so that about exp(-x) of its natural pairs exceed x.
@@ -67,24 +69,25 @@ struct Clues {
   float turn = 0.0F;       ///< they fit, but turned
 
   /// How strongly in all, with `allowance` for a robot that moved more than it uses to: then more
-  /// comes into sight and goes, and odometry errs a little more.
-  [[nodiscard]] float sum(float allowance = 0.0F) const {
+  /// comes into sight and goes, and odometry errs a little more (`motion_share` of that).
+  [[nodiscard]] float sum(float allowance = 0.0F, float motion_share = 0.0F) const {
     return std::max(0.0F, misfit + std::max(unmatched, elsewhere) - allowance) +
-           std::max(0.0F, shift + turn - kMoveAllowance * allowance);
+           std::max(0.0F, shift + turn - motion_share * allowance);
   }
-  static constexpr float kMoveAllowance = 0.5F;
 };
 
 /// Clues of a jump between `before` and `now` that the scan after confirms: what both pairs with
 /// `before` show (a glitch is gone in the second) and the pair after the jump does not (noise and
-/// bad odometry stay). Nor may the pair `earlier` show the same shift or turn.
+/// bad odometry stay; weighed by `after_weight`). Nor may the pair `earlier` show the same shift or
+/// turn.
 [[nodiscard]] Clues confirmed(const Clues& before_now, const Clues& before_next,
-                              const Clues& now_next, const Clues& earlier);
+                              const Clues& now_next, const Clues& earlier,
+                              float after_weight = MotionTuning{}.after);
 
 /// What is normal for one robot: the upper tail of each feature over its natural pairs.
 class Habits {
  public:
-  Habits();
+  explicit Habits(const MotionTuning& tuning = {});
 
   void learn(const Features& features);
   [[nodiscard]] float pairs() const { return tails_[0].count(); }
@@ -113,6 +116,7 @@ class Habits {
   };
   [[nodiscard]] float unusual(Feature feature, const Features& features) const;
 
+  MotionTuning tuning_;
   std::array<Tail, kFeatures> tails_;
   std::array<Scale, kFeatures> scales_{};
   int unscaled_ = 0;  // learned since scales_ were computed

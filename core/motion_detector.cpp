@@ -8,13 +8,13 @@
 namespace kidnapwatch::core {
 namespace {
 
-constexpr float kPriorExcesses = 10.0F;  // of a fleet's robots, to start a robot's tail with
-constexpr float kPriorMean = 1.0F;
-constexpr float kLearnable = 1.5F;     // times the fleet's threshold: higher is not natural driving
+constexpr float kPriorMean = 1.0F;     // of the excesses that a robot's tail starts with
+constexpr float kLearnable = 6.75F;    // higher scores are not natural driving
 constexpr float kScreen = 0.9F;        // pairs below this quantile of the scores need no confirming
 constexpr float kGapAllowance = 1.5F;  // per e-fold of missed scans
 constexpr double kGapMax = 10.0;
-constexpr float kLearnedFormat = 1.0F;  // another number where their meaning changes
+constexpr double kGapBlindMax = 2.5;  // scans: after more, only wheels could tell what is expected
+constexpr float kLearnedFormat = 2.0F;  // another number where their meaning changes
 constexpr double kPeriodStep = 1.05;
 constexpr double kCoast = 0.8;  // of the speed is kept, per scan that does not tell it
 constexpr double kUsualRate = 0.05;
@@ -65,7 +65,7 @@ MotionVerdict MotionDetector::observe(const Scan& scan, bool learning) {
   verdict.threshold = threshold();
   if (first) return verdict;
   const float limit = verdict.threshold.value_or(static_cast<float>(config_.threshold_min));
-  Pair latest = paired(view(1), view(0), wheels);
+  Pair latest = paired(view(1), view(0), wheels, wheels.scans);
   if (pending_) {
     const std::optional<Pair> around =
         suspicious(*pending_, limit) ? bridged(latest) : std::nullopt;
@@ -132,10 +132,15 @@ bool MotionDetector::restore(std::span<const float> learned) {
 }
 
 std::optional<float> MotionDetector::threshold() const {
+  const auto own = own_threshold();
+  if (!own) return own;
+  return std::max({*own, static_cast<float>(config_.threshold_min), fleet_threshold_});
+}
+
+std::optional<float> MotionDetector::own_threshold() const {
   if (static_cast<double>(habits_.pairs()) < config_.warmup_pairs) return std::nullopt;
-  const float own = predicted_threshold(scores_, static_cast<float>(config_.false_alarm_rate),
-                                        kPriorExcesses, kPriorMean);
-  return std::max(own, static_cast<float>(config_.threshold_min));
+  return predicted_threshold(scores_, static_cast<float>(config_.false_alarm_rate),
+                             config_.tuning.prior_excesses, kPriorMean);
 }
 
 Wheels MotionDetector::told(const Scan& scan) const {
@@ -165,17 +170,17 @@ Claim MotionDetector::claim(const Wheels& wheels) const {
 }
 
 MotionDetector::Pair MotionDetector::paired(const Contour& before, const Contour& now,
-                                            const Wheels& wheels) const {
+                                            const Wheels& wheels, double gap) const {
   Pair pair;
   pair.wheels = wheels;
-  pair.comparison = compare(before, now, claim(wheels));
+  pair.comparison = compare(before, now, claim(wheels), config_.tuning);
   if (!pair.comparison.judged) return pair;
   pair.clues = habits_.clues(pair.comparison.features);
   pair.allowance = habits_.allowance(pair.comparison.features);
   pair.allowance += kGapAllowance * static_cast<float>(std::log(std::min(wheels.scans, kGapMax)));
-  const bool lost = !pair.comparison.claim.by_wheels && wheels.scans >= 2.5;
+  const bool lost = !pair.comparison.claim.by_wheels && gap > kGapBlindMax;
   if (lost) pair.clues.unmatched = pair.clues.elsewhere = pair.clues.shift = pair.clues.turn = 0.0F;
-  pair.suspicion = pair.clues.sum(pair.allowance);
+  pair.suspicion = pair.clues.sum(pair.allowance, config_.tuning.motion_share);
   return pair;
 }
 
@@ -187,7 +192,8 @@ bool MotionDetector::suspicious(const Pair& pair, float limit) const {
 
 /// The pair of the latest scan and the one before the pending pair's second.
 std::optional<MotionDetector::Pair> MotionDetector::bridged(const Pair& latest) const {
-  return paired(view(2), view(0), joined(pending_->wheels, latest.wheels));
+  return paired(view(2), view(0), joined(pending_->wheels, latest.wheels),
+                std::max(pending_->wheels.scans, latest.wheels.scans));
 }
 
 /// What the latest scan makes of the pair before it.
@@ -196,8 +202,8 @@ MotionJump MotionDetector::confirm(const Pair& latest, const std::optional<Pair>
   MotionJump jump{suspect.clues, suspect.allowance, suspect.suspicion, false, Cause::teleport};
   if (!around) return jump;
   const Clues after = habits_.clues(latest.comparison.lenient);
-  jump.clues = confirmed(suspect.clues, around->clues, after, earlier_);
-  jump.score = jump.clues.sum(jump.allowance);
+  jump.clues = confirmed(suspect.clues, around->clues, after, earlier_, config_.tuning.after);
+  jump.score = jump.clues.sum(jump.allowance, config_.tuning.motion_share);
   jump.cause = cause_of(around->comparison, jump.clues);
   return jump;
 }
@@ -212,7 +218,7 @@ bool MotionDetector::may_learn() {
 void MotionDetector::learn(const Pair& pair, const MotionJump& jump) {
   if (!pair.comparison.judged) return;
   const bool scaled_well = static_cast<double>(habits_.pairs()) >= 0.5 * config_.warmup_pairs;
-  const bool plausible = jump.score < kLearnable * static_cast<float>(config_.threshold_min);
+  const bool plausible = jump.score < kLearnable;
   if (scaled_well && plausible) scores_.learn(jump.score);
   habits_.learn(pair.comparison.features);
   const Agreement& fit = pair.comparison.at_seen;

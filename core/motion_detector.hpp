@@ -12,6 +12,7 @@
 #include "core/cause.hpp"
 #include "core/contour.hpp"
 #include "core/motion_consistency.hpp"
+#include "core/motion_tuning.hpp"
 #include "core/scan.hpp"
 #include "core/tail.hpp"
 #include "core/wheel_model.hpp"
@@ -20,9 +21,10 @@ namespace kidnapwatch::core {
 
 struct MotionConfig {
   double false_alarm_rate = 1e-3;  ///< targeted share of natural pairs above the threshold
-  double threshold_min = 4.5;      ///< the fleet's threshold: no robot's own is below
+  double threshold_min = 6.0;      ///< no robot's threshold is below
   double warmup_pairs = 60;        ///< natural pairs before anything is concluded
   Pose sensor;                     ///< T_base_sensor; what is not told is learned from turns
+  MotionTuning tuning;
 
   friend bool operator==(const MotionConfig&, const MotionConfig&) = default;
 };
@@ -48,7 +50,8 @@ struct MotionVerdict {
 
 class MotionDetector {
  public:
-  explicit MotionDetector(const MotionConfig& config) : config_(config) {}
+  explicit MotionDetector(const MotionConfig& config)
+      : config_(config), habits_(config.tuning), carry_(config.tuning.carry_slack) {}
 
   /// Takes the robot's next scan, which is comparable and newer than the last. `learn`: false while
   /// an incident is open. Allocates only when the number of beams grows.
@@ -56,6 +59,9 @@ class MotionDetector {
 
   /// From now on; what was learned is kept.
   void configure(const MotionConfig& config) { config_ = config; }
+
+  /// What the fleet's other robots found: no threshold is below that from now on.
+  void set_fleet_threshold(double threshold) { fleet_threshold_ = static_cast<float>(threshold); }
 
   /// Forgets the last scans (a restart, a clock set back), not what was learned.
   void forget_scans();
@@ -66,7 +72,10 @@ class MotionDetector {
   /// detector of this kind.
   bool restore(std::span<const float> learned);
 
+  /// The highest of its own, the fleet's and threshold_min; nothing while warming up.
   [[nodiscard]] std::optional<float> threshold() const;
+  /// What this robot's natural pairs alone let expect.
+  [[nodiscard]] std::optional<float> own_threshold() const;
   [[nodiscard]] float pairs() const { return habits_.pairs(); }
   [[nodiscard]] const Habits& habits() const { return habits_; }
   [[nodiscard]] const WheelModel& wheels() const { return model_; }
@@ -85,7 +94,9 @@ class MotionDetector {
   static void visit_learned(Self& self, Visit& visit);
   [[nodiscard]] Wheels told(const Scan& scan) const;
   [[nodiscard]] Claim claim(const Wheels& wheels) const;
-  [[nodiscard]] Pair paired(const Contour& before, const Contour& now, const Wheels& wheels) const;
+  /// `gap`: scans between two of the scans seen, at most.
+  [[nodiscard]] Pair paired(const Contour& before, const Contour& now, const Wheels& wheels,
+                            double gap) const;
   [[nodiscard]] bool suspicious(const Pair& pair, float limit) const;
   [[nodiscard]] std::optional<Pair> bridged(const Pair& latest) const;
   [[nodiscard]] MotionJump confirm(const Pair& latest, const std::optional<Pair>& around) const;
@@ -99,6 +110,7 @@ class MotionDetector {
   }
 
   MotionConfig config_;
+  float fleet_threshold_ = 0.0F;
   std::array<Contour, 3> views_;
   std::size_t newest_ = 0;
   std::size_t seen_ = 0;  // scans in views_

@@ -321,4 +321,12 @@ std::optional<double> Session::threshold() const {
   return config_.threshold ? config_.threshold : calibration_.threshold();
 }
 
+std::optional<double> Session::motion_threshold() const {
+  return uses_motion(config_.alarm) ? motion_.threshold() : std::nullopt;
+}
+
+std::optional<double> Session::own_motion_threshold() const {
+  return uses_motion(config_.alarm) ? motion_.own_threshold() : std::nullopt;
+}
+
 }  // namespace kidnapwatch::core

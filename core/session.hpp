@@ -143,6 +143,13 @@ class Session {
   /// Of QS-2DDTW: the configured threshold, else the calibrated one, else nothing.
   [[nodiscard]] std::optional<double> threshold() const;
 
+  /// Of motion consistency; nothing while warming up, or where it has no say. Its own is what this
+  /// robot's natural pairs alone let expect; the one in force is no lower than the fleet's, nor
+  /// than threshold_min.
+  [[nodiscard]] std::optional<double> motion_threshold() const;
+  [[nodiscard]] std::optional<double> own_motion_threshold() const;
+  void set_fleet_threshold(double threshold) { motion_.set_fleet_threshold(threshold); }
+
   /// Natural pairs that the calibrated thresholds rest on, of warmup_pairs needed.
   [[nodiscard]] std::size_t calibration_pairs() const;
 

@@ -17,10 +17,12 @@ namespace kidnapwatch::core {
 struct RobotStatus {
   std::string id;
   RobotState state = RobotState::unknown;
-  std::optional<Trouble> trouble;  ///< why it is degraded
-  Stamp last_arrival;              ///< of any scan, by the service's clock
-  std::optional<Score> score;      ///< the latest
-  std::optional<double> threshold;
+  std::optional<Trouble> trouble;              ///< why it is degraded
+  Stamp last_arrival;                          ///< of any scan, by the service's clock
+  std::optional<Score> score;                  ///< the latest
+  std::optional<double> threshold;             ///< of QS-2DDTW
+  std::optional<double> motion_threshold;      ///< of motion consistency, in force
+  std::optional<double> own_motion_threshold;  ///< without fleet and configuration
   std::uint64_t calibration_pairs = 0;
   std::uint64_t warmup_pairs = 0;          ///< calibration_pairs needed before there is a threshold
   std::optional<std::string> incident_id;  ///< of the open incident

@@ -10,6 +10,7 @@ namespace {
 using core::Outcome;
 
 constexpr std::size_t kKeepEvery = 500;  // scans; 12 kB each time
+constexpr std::size_t kTellEvery = 100;  // scans: a threshold changes slowly
 
 core::AlertType alert_type(core::EpisodeChange change) {
   switch (change) {
@@ -51,6 +52,7 @@ Watch::Watch(std::string id, const Surroundings& around)
 
 void Watch::resume(const Past& past) {
   (void)session_.restore(past.learned);  // of another version: it is learned anew
+  tell_fleet();
   session_.resume(past.natural_scores, past.open_incident.has_value(), around_.uptime());
   incident_open_ = past.open_incident.has_value();
   incident_ = past.open_incident.value_or(core::Incident{});
@@ -80,6 +82,9 @@ void Watch::take(const Message& message, Bench& bench) {
     around_.announcer.announce_state(after, arrival);
   }
   const bool warmed_up = before == core::RobotState::unknown && after.state != before;
+  if (++untold_ >= kTellEvery || warmed_up) {
+    tell_fleet();
+  }
   if (++unkept_ >= kKeepEvery || warmed_up) {
     keep_learned();
   }
@@ -88,6 +93,14 @@ void Watch::take(const Message& message, Bench& bench) {
 void Watch::keep_learned() {
   if (std::exchange(unkept_, 0) > 0) {
     around_.announcer.keep_learned(id_, session_.learned());
+  }
+}
+
+/// Its own threshold, not the one in force: the fleet's median is not to feed itself.
+void Watch::tell_fleet() {
+  untold_ = 0;
+  if (const auto own = session_.own_motion_threshold()) {
+    around_.fleet_threshold->tell(id_, *own);
   }
 }
 
@@ -169,6 +182,7 @@ Outcome Watch::outcome_of(const Message& message, Bench& bench) {
     if (!bench.scan.odometry) {
       bench.scan.odometry = odometry_.at(bench.scan.stamp);
     }
+    session_.set_fleet_threshold(around_.fleet_threshold->median());
     core::Observation seen = session_.observe(bench.scan, around_.uptime(), bench.workspace);
     if (seen.verdict) {
       conclude(*seen.verdict, message.arrival);
@@ -254,6 +268,8 @@ void Watch::refresh_status(core::Stamp arrival) {
   status_.trouble = status_.state == core::RobotState::degraded ? session_.trouble() : std::nullopt;
   status_.last_arrival = arrival;
   status_.threshold = session_.threshold();
+  status_.motion_threshold = session_.motion_threshold();
+  status_.own_motion_threshold = session_.own_motion_threshold();
   status_.calibration_pairs = session_.calibration_pairs();
   status_.warmup_pairs = config_->config.calibration.warmup_pairs;
   status_.incident_id = incident_open_ ? std::optional(incident_.id) : std::nullopt;

@@ -19,6 +19,7 @@
 #include "core/incident_command.hpp"
 #include "core/odometry_track.hpp"
 #include "core/status.hpp"
+#include "service/fleet_threshold.hpp"
 #include "service/other_detectors.hpp"
 
 namespace kidnapwatch::service {
@@ -75,6 +76,7 @@ struct Surroundings {
   /// What is in force for the robot.
   std::function<std::shared_ptr<const core::ConfigVersion>(const std::string& robot)> config;
   std::function<void(const std::string& robot, const core::BadInput& why)> log_refusal;
+  std::shared_ptr<FleetThreshold> fleet_threshold = std::make_shared<FleetThreshold>();
 };
 
 /// What an earlier run of the service left of a robot.
@@ -119,6 +121,7 @@ class Watch {
   void conclude(core::Verdict& verdict, core::Stamp arrival);
   void change_incident(core::EpisodeChange change, core::Stamp now);
   void refresh_config();
+  void tell_fleet();
   void refresh_status(core::Stamp now);
 
   const std::string id_;
@@ -130,6 +133,7 @@ class Watch {
   core::Incident incident_;  // the latest; meaningless before the first
   bool incident_open_ = false;
   std::size_t unkept_ = 0;  // scans since what was learned was kept
+  std::size_t untold_ = 0;  // scans since the fleet was told
 
   mutable std::mutex mutex_;  // over status_ alone
   core::RobotStatus status_;

@@ -65,6 +65,8 @@ std::string state_message(const core::RobotStatus& robot, core::Stamp now) {
   }
   set(message, "incidentId", robot.incident_id);
   set(message, "threshold", robot.threshold);
+  set(message, "motionThreshold", robot.motion_threshold);
+  set(message, "ownMotionThreshold", robot.own_motion_threshold);
   message["calibration"] = {{"pairs", robot.calibration_pairs}, {"needed", robot.warmup_pairs}};
   return text(message);
 }

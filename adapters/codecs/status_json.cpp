@@ -40,6 +40,8 @@ Json json(const core::RobotStatus& robot) {
   }
   set(object, "incidentId", robot.incident_id);
   set(object, "threshold", robot.threshold);
+  set(object, "motionThreshold", robot.motion_threshold);
+  set(object, "ownMotionThreshold", robot.own_motion_threshold);
   object["calibration"] = {{"pairs", robot.calibration_pairs}, {"needed", robot.warmup_pairs}};
   if (robot.score) {
     object["lastScore"] = json(*robot.score);

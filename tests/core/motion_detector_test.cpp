@@ -2,6 +2,7 @@
 // The detector on a robot that circles in a room: what it reports, and what it must not.
 #include "core/motion_detector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -164,6 +165,19 @@ TEST_F(MotionDetectorTest, FindsATeleportWithoutOdometry) {
   EXPECT_EQ(alarms_, 1);
 }
 
+TEST_F(MotionDetectorTest, FindsATeleportWithoutOdometryThoughAScanIsLate) {
+  tells_odometry_ = false;
+  drive(200);
+  at_ = {1.2, 5.0, 0.4};
+  for (int i = 0; i < 5; ++i) {
+    at_ = at_ * kStep;
+    Scan seen = scan();
+    seen.stamp = later_by_s(seen.stamp, 0.06);  // rather two periods than one after the last
+    note(detector_.observe(seen));
+  }
+  EXPECT_EQ(alarms_, 1);
+}
+
 TEST_F(MotionDetectorTest, RaisesNothingWhileStanding) {
   tells_odometry_ = false;
   for (int i = 0; i < 400; ++i) step({}, {});
@@ -175,6 +189,32 @@ TEST_F(MotionDetectorTest, LearnsNothingWhenToldSo) {
   const float pairs = detector_.pairs();
   for (int i = 0; i < 20; ++i) step(kStep, kStep, false);
   EXPECT_EQ(detector_.pairs(), pairs);
+}
+
+TEST_F(MotionDetectorTest, FollowsWheelsThatWearDown) {
+  drive(200);
+  for (int i = 1; i <= 800; ++i) {  // until they tell 8 % too much
+    const double factor = 1.0 + 0.08 * i / 800.0;
+    step(kStep, {kStep.x_m * factor, 0.0, kStep.theta_rad * factor});
+  }
+  EXPECT_EQ(alarms_ + carries_, 0);
+  const Pose worn{kStep.x_m * 1.08, 0.0, kStep.theta_rad * 1.08};
+  const Pose expected = detector_.wheels().expected({worn, 1.0, worn, 1.0});
+  EXPECT_NEAR(expected.x_m, kStep.x_m, 0.5 * (worn.x_m - kStep.x_m));
+  EXPECT_NEAR(expected.theta_rad, kStep.theta_rad, 0.5 * (worn.theta_rad - kStep.theta_rad));
+}
+
+TEST_F(MotionDetectorTest, HasNoThresholdBelowTheFleets) {
+  drive(200);
+  const auto own = detector_.own_threshold();
+  ASSERT_TRUE(own);
+  EXPECT_EQ(detector_.threshold(), std::max(*own, 6.0F));
+  detector_.set_fleet_threshold(12.0);
+  EXPECT_EQ(detector_.threshold(), 12.0F);
+  EXPECT_EQ(detector_.own_threshold(), own);
+  at_ = {1.2, 5.0, 0.4};
+  drive(5);
+  EXPECT_EQ(alarms_, 1);  // and still finds what is plain
 }
 
 TEST_F(MotionDetectorTest, GoesOnWithWhatWasLearnedBefore) {

@@ -13,7 +13,7 @@ constexpr const char* kDefaults =
     R"({"alarm":"motion_consistency",)"
     R"("dissimilarity":{"dimension":"points","gate":"paper","variance_test":"bartlett",)"
     R"("significance":0.05,"invalid":"drop","precision":"f32"},)"
-    R"("motion":{"threshold_min":4.5,"sensor":{"x_m":0.0,"y_m":0.0,"theta_rad":0.0}},)"
+    R"("motion":{"threshold_min":6.0,"sensor":{"x_m":0.0,"y_m":0.0,"theta_rad":0.0}},)"
     R"("calibration":{"false_alarm_rate":0.001,"warmup_pairs":100,"window_pairs":1000},)"
     R"("threshold":null,"detectors":[],"stale_after_s":5.0,"resolve_after_s":30.0,)"
     R"("resync_scans":20})";
@@ -40,7 +40,7 @@ TEST(ConfigJson, ReadsWhatItWrote) {
                           core::VarianceTest::brown_forsythe, 0.01, core::InvalidPolicy::clamp};
   config.calibration = {0.002, 50, 500};
   config.alarm = core::AlarmBy::both;
-  config.motion.threshold_min = 6.0;
+  config.motion.threshold_min = 7.0;
   config.motion.sensor = {0.2, -0.1, 3.0};
   config.threshold = 12.5;
   config.detectors = {"ndt_qe", "me"};

@@ -88,14 +88,19 @@ TEST(StateMessage, TellsThresholdAndIncidentWhereKnown) {
   EXPECT_EQ(warming_up["schema"], "kidnapwatch/state/1");
   EXPECT_EQ(warming_up["robotId"], "r1");
   EXPECT_EQ(warming_up["state"], "unknown");
-  EXPECT_FALSE(warming_up.contains("threshold"));
+  for (const char* absent : {"threshold", "motionThreshold", "ownMotionThreshold"})
+    EXPECT_FALSE(warming_up.contains(absent)) << absent;
   EXPECT_FALSE(warming_up.contains("incidentId"));
   robot.state = core::RobotState::kidnapped;
   robot.threshold = 3.5;
+  robot.motion_threshold = 5.5;
+  robot.own_motion_threshold = 4.25;
   robot.incident_id = "i-1";
   const Json kidnapped = parsed(state_message(robot, kNow), "state");
   EXPECT_EQ(kidnapped["state"], "kidnapped");
   EXPECT_EQ(kidnapped["threshold"], 3.5);
+  EXPECT_EQ(kidnapped["motionThreshold"], 5.5);
+  EXPECT_EQ(kidnapped["ownMotionThreshold"], 4.25);
   EXPECT_EQ(kidnapped["incidentId"], "i-1");
 }
 
