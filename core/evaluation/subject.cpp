@@ -94,6 +94,9 @@ class MotionSubject : public Subject {
   }
 
   [[nodiscard]] std::optional<double> threshold() const override { return detector_.threshold(); }
+  [[nodiscard]] std::optional<double> own_threshold() const override {
+    return detector_.own_threshold();
+  }
 
  private:
   const Scan& blinded(const Scan& scan) {

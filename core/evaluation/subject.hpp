@@ -31,8 +31,10 @@ class Subject {
   /// `learn`: whether the scan is natural and may be learned from.
   virtual std::optional<Reading> observe(const Scan& scan, bool learn) = 0;
 
-  /// Its own threshold by now; nothing while warming up.
+  /// Its threshold by now, no lower than a fleet's; nothing while warming up.
   [[nodiscard]] virtual std::optional<double> threshold() const = 0;
+  /// The same without a fleet.
+  [[nodiscard]] virtual std::optional<double> own_threshold() const { return threshold(); }
 };
 
 enum class DetectorKind : std::uint8_t {

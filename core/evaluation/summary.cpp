@@ -9,6 +9,7 @@ namespace kidnapwatch::core::evaluation {
 namespace {
 
 constexpr std::array kRates{1e-2, 2e-3, 1e-3};
+constexpr std::string_view kPooled = "pooled";
 
 std::vector<double> scores(const std::vector<EpisodeResult>& episodes) {
   std::vector<double> all;
@@ -32,7 +33,6 @@ void add_points(const std::vector<EpisodeResult>& episodes, const std::vector<do
   if (natural.empty() || episodes.empty()) return;
   const auto found = scores(episodes);
   row.roc = roc(natural, found);
-  row.roc->points.clear();
   for (const double fpr : kRates) {
     const double threshold = threshold_at(natural, fpr);
     row.points.push_back(
@@ -63,6 +63,7 @@ std::vector<Row> rows_of(DetectorKind detector, const std::string& log, const Tr
     all.back().kind = kind;
   }
   for (Row& row : all) {
+    if (row.roc && log != kPooled) row.roc->points.clear();
     row.detector = detector;
     row.log = log;
     row.threshold = result.threshold;
@@ -102,7 +103,7 @@ std::vector<Row> rows(std::span<const LogTrial> trials) {
       if (found->second.threshold) pool(found->second, pooled);
     }
     if (!pooled.natural.empty())
-      std::ranges::move(rows_of(detector, "pooled", pooled), std::back_inserter(all));
+      std::ranges::move(rows_of(detector, std::string(kPooled), pooled), std::back_inserter(all));
   }
   return all;
 }

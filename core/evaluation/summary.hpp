@@ -38,7 +38,7 @@ struct Row {
   std::string log;                  ///< or "pooled"
   Rate alarms;                      ///< at the robot's own threshold, learned from the first half
   std::optional<double> threshold;  ///< that one; none in "pooled"
-  std::optional<Roc> roc;           ///< of kidnappings against natural pairs, without its points
+  std::optional<Roc> roc;  ///< of kidnappings against natural pairs; points in "pooled" alone
   std::vector<OperatingPoint> points;         ///< of kidnappings
   std::map<std::string, std::size_t> causes;  ///< of the alarms
 };

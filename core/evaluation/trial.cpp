@@ -47,13 +47,16 @@ void add(const Recording& recording, const TrialConfig& config, std::string_view
 
 EpisodeResult outcome(const Subject& before, const Episode& episode, const TrialConfig& config,
                       bool is_carry) {
-  EpisodeResult result{-std::numeric_limits<double>::infinity(), false, {}};
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  EpisodeResult result{.score = kNone, .highest = kNone};
   const auto subject = before.copy();
   for (std::size_t i = 0; i < episode.scans.size(); ++i) {
     const auto reading = subject->observe(episode.scans[i], false);
     if (!reading) continue;
     if (i < config.deciding_scans || is_carry)
       result.score = std::max(result.score, reading->score);
+    result.highest = std::max(result.highest, reading->score);
+    result.carried = result.carried || reading->carried;
     const bool alarm = reading->alarm || reading->carried;
     if (alarm && !result.alarm) result.cause = reading->cause;
     result.alarm = result.alarm || alarm;
@@ -103,6 +106,7 @@ TrialResult trial(const Recording& recording, const Plan& plan, const TrialConfi
   for (std::size_t i = 0; i < half(recording); ++i)
     (void)subject->observe(recording.scans[i].scan, true);
   result.threshold = subject->threshold();
+  result.own_threshold = subject->own_threshold();
   auto entry = plan.entries.begin();
   for (std::size_t i = half(recording); i < recording.scans.size(); ++i) {
     for (; entry != plan.entries.end() && entry->episode.at == i; ++entry) {

@@ -23,18 +23,21 @@ struct TrialConfig {
 
 /// What a detector made of one episode.
 struct EpisodeResult {
-  double score = 0.0;  ///< the highest of the deciding scans
-  bool alarm = false;  ///< within the episode, at the robot's own threshold
+  double score = 0.0;    ///< the highest of the deciding scans
+  double highest = 0.0;  ///< of all scans
+  bool alarm = false;    ///< within the episode, at the robot's own threshold
+  bool carried = false;  ///< by the alarm for slow carries
   std::optional<Cause> cause;
 };
 
 /// One detector on one run.
 struct TrialResult {
   std::optional<double> threshold;  ///< that the first half gave; its own, no lower than a fleet's
-  std::vector<double> natural;      ///< scores of the second half's pairs
-  std::size_t alarms = 0;           ///< natural pairs above the threshold
-  std::size_t carry_alarms = 0;     ///< on natural scans
-  std::size_t skipped = 0;          ///< scans of the second half that cannot be compared
+  std::optional<double> own_threshold;  ///< the same without a fleet
+  std::vector<double> natural;          ///< scores of the second half's pairs
+  std::size_t alarms = 0;               ///< natural pairs above the threshold
+  std::size_t carry_alarms = 0;         ///< on natural scans
+  std::size_t skipped = 0;              ///< scans of the second half that cannot be compared
   std::map<std::string, std::size_t> troubles;  ///< scans of the second half, by trouble
   std::map<std::string, std::vector<EpisodeResult>> kidnaps;
   std::map<std::string, std::vector<EpisodeResult>> confounders;

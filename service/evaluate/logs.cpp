@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "adapters/logs/log.hpp"
+#include "core/evaluation/tunings.hpp"
 #include "service/evaluate/logs_report.hpp"
 #include "service/evaluate/parallel.hpp"
 
@@ -29,6 +30,7 @@ struct EvaluateLogsOptions {
   bool leave_one_out = false;
   double target_rate = 1e-3;
   evaluation::TrialConfig trial;
+  std::size_t rehearsal_episodes = 2;
   std::vector<std::string> detectors;
   std::size_t jobs = 0;  ///< 0: one per core
 };
@@ -61,69 +63,96 @@ bool is_wanted(const EvaluateLogsOptions& options, DetectorKind kind) {
          std::ranges::count(options.detectors, evaluation::name(kind)) > 0;
 }
 
-/// Drives every detector that is wanted through the log.
-evaluation::LogTrial tried(const core::Recording& recording, const EvaluateLogsOptions& options,
-                           double fleet_threshold, bool with_episodes) {
+/// What is fixed before a log is looked at.
+struct Given {
+  core::MotionTuning tuning;
+  std::string tuning_name = "as shipped";
+  double floor = core::MotionConfig{}.threshold_min;
+};
+
+evaluation::SubjectConfig config_of(const EvaluateLogsOptions& options, const Given& given) {
   evaluation::SubjectConfig config;
   config.calibration.false_alarm_rate = options.target_rate;
   config.motion.false_alarm_rate = options.target_rate;
-  config.motion.threshold_min = fleet_threshold;
+  config.motion.threshold_min = given.floor;
+  config.motion.tuning = given.tuning;
+  return config;
+}
+
+/// Drives every detector that is wanted through the log.
+evaluation::LogTrial tried(const core::Recording& recording, const EvaluateLogsOptions& options,
+                           const Given& given) {
   evaluation::LogTrial result{recording.name, {}};
-  const auto plan = with_episodes ? evaluation::plan(recording, options.trial) : evaluation::Plan{};
+  const auto plan = evaluation::plan(recording, options.trial);
   for (const DetectorKind kind : evaluation::kDetectors) {
     if (!is_wanted(options, kind)) continue;
     result.results[kind] =
-        evaluation::trial(recording, plan, options.trial, evaluation::subject(kind, config));
+        evaluation::trial(recording, plan, options.trial, subject(kind, config_of(options, given)));
   }
   return result;
 }
 
-/// Reads a log and judges it at `fleet_threshold`.
-void judge(const fs::path& file, const EvaluateLogsOptions& options, double fleet_threshold,
-           bool with_episodes, JudgedLog& log) {
+std::string folder_of(const fs::path& file) { return file.parent_path().filename().string(); }
+
+/// Reads a log and judges it.
+void judge(const fs::path& file, const EvaluateLogsOptions& options, const Given& given,
+           JudgedLog& log) {
   log.file = file.string();
-  log.folder = file.parent_path().filename().string();
-  log.fleet_threshold = fleet_threshold;
+  log.folder = folder_of(file);
+  log.fleet_threshold = given.floor;
+  log.tuning = given.tuning_name;
   try {
     const auto read = adapters::logs::read_log(file);
     log.scans = read.recording.scans.size();
     log.skipped_lines = read.skipped_lines;
     log.has_odometry = has_odometry(read.recording);
-    log.trial = tried(read.recording, options, fleet_threshold, with_episodes);
+    log.trial = tried(read.recording, options, given);
   } catch (const core::BadInput& e) {
     log.error = e.what();
   }
 }
 
-/// The threshold that a share `rate` of the natural scores of all other folders' robots exceeds.
-double others_threshold(const std::vector<JudgedLog>& logs, const std::string& folder,
-                        double rate) {
-  std::vector<double> scores;
-  for (const JudgedLog& log : logs) {
-    const auto found = log.trial.results.find(DetectorKind::motion_consistency);
-    if (log.folder == folder || found == log.trial.results.end() || !found->second.threshold)
-      continue;
-    const auto& natural = found->second.natural;
-    scores.insert(scores.end(), natural.begin(), natural.end());
+/// Tries every candidate on the log, on few episodes, and others than it will be judged on.
+evaluation::Rehearsal rehearsed(const fs::path& file, const EvaluateLogsOptions& options) {
+  evaluation::Rehearsal rehearsal{folder_of(file), {}};
+  evaluation::TrialConfig few = options.trial;
+  few.episodes = options.rehearsal_episodes;
+  few.seed = ~options.trial.seed;
+  try {
+    const auto recording = adapters::logs::read_log(file).recording;
+    const auto plan = evaluation::plan(recording, few);
+    for (const auto& candidate : evaluation::candidates()) {
+      const auto config = config_of(options, {.tuning = candidate.tuning});
+      rehearsal.results.push_back(evaluation::trial(
+          recording, plan, few, subject(DetectorKind::motion_consistency, config)));
+    }
+  } catch (const core::BadInput&) {
+    rehearsal.results.clear();  // judge() tells why
   }
-  const double usual = core::MotionConfig{}.threshold_min;
-  return static_cast<double>(scores.size()) < 2.0 / rate ? usual
-                                                         : evaluation::threshold_at(scores, rate);
+  return rehearsal;
+}
+
+/// For each log the tuning and the fleet's threshold, by the logs of all other folders.
+std::vector<Given> given(const std::vector<fs::path>& files, const EvaluateLogsOptions& options) {
+  std::vector<Given> all(files.size());
+  if (!options.leave_one_out) return all;
+  std::vector<evaluation::Rehearsal> rehearsals(files.size());
+  in_parallel(files.size(), options.jobs, "rehearsals",
+              [&](std::size_t i) { rehearsals[i] = rehearsed(files[i], options); });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto choice = evaluation::chosen(rehearsals, folder_of(files[i]), options.target_rate);
+    const auto& candidate = evaluation::candidates()[choice.candidate];
+    all[i] = {candidate.tuning, std::string(candidate.name), choice.floor};
+  }
+  return all;
 }
 
 std::vector<JudgedLog> judged(const std::vector<fs::path>& files,
                               const EvaluateLogsOptions& options) {
+  const auto fixed = given(files, options);
   std::vector<JudgedLog> logs(files.size());
-  std::vector<double> thresholds(files.size(), core::MotionConfig{}.threshold_min);
-  if (options.leave_one_out) {
-    std::vector<JudgedLog> natural(files.size());
-    in_parallel(files.size(), options.jobs, "natural drives",
-                [&](std::size_t i) { judge(files[i], options, thresholds[i], false, natural[i]); });
-    for (std::size_t i = 0; i < files.size(); ++i)
-      thresholds[i] = others_threshold(natural, natural[i].folder, options.target_rate);
-  }
   in_parallel(files.size(), options.jobs, "logs",
-              [&](std::size_t i) { judge(files[i], options, thresholds[i], true, logs[i]); });
+              [&](std::size_t i) { judge(files[i], options, fixed[i], logs[i]); });
   return logs;
 }
 
@@ -158,7 +187,11 @@ void add_evaluate_logs(CLI::App& app, Command& chosen) {
   command->add_option("--out", options->out, "Folder for results.json and report.html")->required();
   command->add_flag("--json", options->json, "Print results.json instead of a table");
   command->add_flag("--leave-one-out", options->leave_one_out,
-                    "The fleet's threshold for each folder (sensor) from all other folders");
+                    "Tuning and fleet's threshold for each folder (sensor) are those that are best "
+                    "on all other folders: most kidnappings found, less 5 times the share of "
+                    "confounders that alarm, at the targeted rate of natural false alarms");
+  command->add_option("--rehearsal-episodes", options->rehearsal_episodes,
+                      "Of each kind and log, to choose by; others than those that are judged");
   command->add_option("--target", options->target_rate, "False alarms per pair of scans")
       ->check(CLI::Range(1e-6, 0.04));
   command->add_option("--episodes", options->trial.episodes, "Of each kind and log, at most");

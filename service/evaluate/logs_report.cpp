@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows written down.
+// Rows written down, as JSON and as text.
 #include "service/evaluate/logs_report.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "adapters/codecs/json.hpp"
 
@@ -50,6 +52,7 @@ Json json(const JudgedLog& log) {
               {"scans", log.scans},
               {"skippedLines", log.skipped_lines},
               {"hasOdometry", log.has_odometry},
+              {"tuning", log.tuning},
               {"fleetThreshold", log.fleet_threshold}};
   if (!log.error.empty()) object["error"] = log.error;
   for (const auto& [detector, result] : log.trial.results) {
@@ -76,23 +79,6 @@ std::string text(const evaluation::Row& row) {
   return line + "\n";
 }
 
-/// A bar of a share, with its confidence interval as a whisker.
-std::string bar(const evaluation::Rate& rate) {
-  return formatted(
-      "<svg width=200 height=12><rect width=%.1f height=12 fill=#69c /><line x1=%.1f x2=%.1f y1=6 "
-      "y2=6 stroke=#333 /></svg>",
-      200.0 * rate.value(), 200.0 * rate.low(), 200.0 * rate.high());
-}
-
-std::string html(const evaluation::Row& row) {
-  std::string line = "<tr><td>" + row.kind + "<td>" + std::string(name(row.family)) +
-                     formatted("<td>%zu<td>%zu<td>%.4f<td>", row.alarms.hits, row.alarms.trials,
-                               row.alarms.value()) +
-                     bar(row.alarms) + (row.roc ? formatted("<td>%.3f", row.roc->auc) : "<td>");
-  for (const auto& point : row.points) line += formatted("<td>%.3f", point.found.value());
-  return line;
-}
-
 std::string natural_text(const LogsReport& report, core::evaluation::DetectorKind detector) {
   std::string lines;
   for (const auto& row : report.rows) {
@@ -103,14 +89,36 @@ std::string natural_text(const LogsReport& report, core::evaluation::DetectorKin
   return lines;
 }
 
+/// What was chosen for each folder, once.
+std::string choices_text(const LogsReport& report) {
+  if (!report.leave_one_out) return {};
+  std::string lines = "\nChosen for each folder on all others\n";
+  std::string last;
+  for (const auto& log : report.logs) {
+    if (std::exchange(last, log.folder) == log.folder) continue;
+    lines += formatted("  %-26s %-22s fleet's threshold %.2f\n", log.folder.c_str(),
+                       log.tuning.c_str(), log.fleet_threshold);
+  }
+  return lines;
+}
+
 }  // namespace
+
+std::string protocol(const LogsReport& report) {
+  std::string text =
+      "The first half of each log calibrates, the second is judged. Alarms are at the robot's own "
+      "threshold, or its fleet's where that is higher; intervals are Wilson's at 95 %.";
+  if (report.leave_one_out)
+    text +=
+        " The tuning of motion consistency and the fleet's threshold were chosen for each folder "
+        "on the logs of all others.";
+  return text;
+}
 
 std::string to_json(const LogsReport& report) {
   Json object{{"targetFalseAlarmRate", report.target_rate},
               {"leaveOneFolderOut", report.leave_one_out},
-              {"protocol",
-               "The first half of each log calibrates, the second is judged. Alarms are at the "
-               "robot's own threshold; intervals are Wilson's at 95 %."},
+              {"protocol", protocol(report)},
               {"logs", Json::array()},
               {"results", Json::array()}};
   for (const auto& log : report.logs) object["logs"].push_back(json(log));
@@ -132,25 +140,7 @@ std::string to_text(const LogsReport& report) {
     }
     lines += natural_text(report, detector);
   }
-  return lines;
-}
-
-std::string to_html(const LogsReport& report) {
-  std::string page =
-      "<!doctype html><meta charset=utf-8><title>kidnapwatch evaluate logs</title><style>"
-      "body{font:14px sans-serif;margin:2em}td,th{padding:2px 8px;text-align:right}"
-      "td:first-child{text-align:left}svg{display:block}</style><h1>Recorded logs</h1><p>The first "
-      "half of each log calibrates, the second is judged. Bars: share alarming at the robot's own "
-      "threshold; whiskers: 95 %.</p>";
-  for (const auto detector : evaluation::kDetectors) {
-    page += "<h2>" + std::string(name(detector)) +
-            "</h2><table><tr><th>event<th>family<th>alarms<th>of<th>share<th>0 ... 1<th>AUC"
-            "<th>TPR at FPR .01<th>.002<th>.001";
-    for (const auto& row : report.rows)
-      if (row.detector == detector && row.log == "pooled") page += html(row);
-    page += "</table>";
-  }
-  return page + "<h2>Logs</h2><pre>" + to_text(report) + "</pre>\n";
+  return lines + choices_text(report);
 }
 
 }  // namespace kidnapwatch::service

@@ -18,7 +18,8 @@ struct JudgedLog {
   std::size_t skipped_lines = 0;
   bool has_odometry = false;
   double fleet_threshold = 0.0;
-  std::string error;  ///< why it was not judged
+  std::string tuning;  ///< of motion consistency: a candidate's name
+  std::string error;   ///< why it was not judged
   core::evaluation::LogTrial trial;
 };
 
@@ -29,6 +30,8 @@ struct LogsReport {
   std::vector<core::evaluation::Row> rows;
 };
 
+/// How the logs were spent, in a sentence or two.
+[[nodiscard]] std::string protocol(const LogsReport& report);
 [[nodiscard]] std::string to_json(const LogsReport& report);
 [[nodiscard]] std::string to_text(const LogsReport& report);
 [[nodiscard]] std::string to_html(const LogsReport& report);

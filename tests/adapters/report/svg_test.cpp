@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "adapters/report/html.hpp"
+#include "adapters/report/intervals.hpp"
 #include "adapters/report/lines.hpp"
 #include "adapters/report/strips.hpp"
 
@@ -81,6 +82,20 @@ TEST(Html, EscapesTextAndKeepsFigures) {
   EXPECT_NE(html.find("<td>&lt;b&gt;</td>"), std::string::npos);
   EXPECT_NE(html.find("<figure><svg></svg>"), std::string::npos);
   EXPECT_EQ(html.find("http"), std::string::npos);  // needs no other file
+}
+
+TEST(Intervals, ShowEveryValueAndLeaveOutWhatIsNotThere) {
+  const IntervalFigure figure{"Found",
+                              "share",
+                              0.5,
+                              {"one", "two"},
+                              {{"far & wide", {Interval{0.25, 0.2, 0.3}, {}}},
+                               {"near", {Interval{0.125, 0.1, 0.2}, Interval{0.75, 0.6, 0.9}}}}};
+  const std::string svg = drawn(figure);
+  for (const char* part : {"far &amp; wide", "0.250", "0.125", "0.750", "–", "▸"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  EXPECT_EQ(count(svg, "▸"), 1U);  // only what the axis does not reach
+  EXPECT_EQ(count(svg, "<svg"), count(svg, "</svg>"));
 }
 
 }  // namespace
