@@ -47,6 +47,7 @@ void Configs::add(State& state, api::ConfigChange change) const {
   state.version = std::max(state.version, change.version);
   state.levels.insert_or_assign(changed, std::move(change));
   for (const auto& [level, values] : state.levels) {
+    if (!changed.empty() && level != changed) continue;  // robots do not inherit from each other
     try {
       state.in_force[level] = std::make_shared<const core::ConfigVersion>(resolved(state, level));
     } catch (const core::BadInput& bad) {

@@ -47,10 +47,10 @@ void Orders::forget_scans(const std::string& robot) {
 
 Orders::Changed Orders::carried_out(const std::string& robot,
                                     std::function<Changed(Watch&)> order) {
-  const auto done = std::make_shared<std::promise<Changed>>();
-  auto changed = done->get_future();
-  const bool is_taken = fleet_.order(
-      robot, [done, order = std::move(order)](Watch& watch) { done->set_value(order(watch)); });
+  // What it throws is for who waits, and not for the lane.
+  const auto task = std::make_shared<std::packaged_task<Changed(Watch&)>>(std::move(order));
+  auto changed = task->get_future();
+  const bool is_taken = fleet_.order(robot, [task](Watch& watch) { (*task)(watch); });
   if (!is_taken || changed.wait_for(kPatience) != std::future_status::ready) {
     throw api::Unavailable("the robot's lane is too busy");
   }
