@@ -90,8 +90,8 @@ std::map<std::string, std::string> parameters(std::string_view query) {
   return result;
 }
 
-/// The weight of `type` in an Accept header: its q, of the most specific range that fits; 0 if
-/// none.
+/// The weight of `type` in an Accept header, or of a coding in Accept-Encoding: its q, of the most
+/// specific range that fits; 0 if none.
 double weight(std::string_view accept, std::string_view type) {
   const auto family = std::string(type.substr(0, type.find('/'))) + "/*";
   double best = 0.0;
@@ -181,6 +181,10 @@ bool is_media_type(std::string_view content_type, std::string_view type) {
 
 bool prefers(std::string_view accept, std::string_view type, std::string_view other) {
   return weight(accept, type) > weight(accept, other);
+}
+
+bool accepts(std::string_view accept_encoding, std::string_view coding) {
+  return weight(accept_encoding, coding) > 0.0;
 }
 
 bool lists_tag(std::string_view list, std::string_view tag, bool weak) {

@@ -61,6 +61,9 @@ struct Target {
 /// Whether `accept` (the header's value) prefers `type` to `other`, which is the default.
 [[nodiscard]] bool prefers(std::string_view accept, std::string_view type, std::string_view other);
 
+/// Whether `accept_encoding` (the header's value) names `coding`, and not with a weight of 0.
+[[nodiscard]] bool accepts(std::string_view accept_encoding, std::string_view coding);
+
 /// Whether a list of entity tags (If-Match, If-None-Match) has `tag`, or is "*". A weak tag (W/"1")
 /// has only those that `weak` allows.
 [[nodiscard]] bool lists_tag(std::string_view list, std::string_view tag, bool weak);

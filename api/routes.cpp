@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "api/assets.hpp"
 #include "api/config.hpp"
 #include "api/incidents.hpp"
 #include "api/problem.hpp"
@@ -46,8 +47,11 @@ constexpr std::array kRoutes{
     Route{"POST", "/api/v1/thresholds:preview", "", Role::operator_, preview_threshold},
     Route{"POST", "/api/v1/thresholds:calibrate", "", Role::operator_, calibrate_threshold},
     Route{"GET", "/api/v1/evaluation/roc", "detector robot from to", Role::viewer, get_roc},
+    Route{"GET", "/api/v1/me", "", Role::viewer, get_me},
     Route{"GET", "/api/v1/service", "", Role::viewer, get_service},
     Route{"GET", "/api/v1/openapi.json", "", kAnybody, get_openapi},
+    Route{"GET", "/", "", kAnybody, get_page},
+    Route{"GET", "/assets/{id}", "", kAnybody, get_asset},
     Route{"GET", "/healthz", "", kAnybody, get_health},
     Route{"GET", "/readyz", "", kAnybody, get_readiness},
     Route{"GET", "/metrics", "", Role::viewer, get_metrics},

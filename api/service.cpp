@@ -9,6 +9,14 @@ namespace kidnapwatch::api {
 
 using adapters::codecs::Json;
 
+Response get_me(const Call& call) {
+  Json body{{"name", call.caller.name}, {"role", name(call.caller.role)}};
+  if (!call.caller.robots.empty()) {
+    body["robots"] = call.caller.robots;
+  }
+  return ok(body);
+}
+
 Response get_service(const Call& call) {
   return ok(adapters::codecs::json(call.ports.fleet.status()));
 }

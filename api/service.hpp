@@ -6,6 +6,8 @@
 
 namespace kidnapwatch::api {
 
+/// Who calls: for a page that shows only what the caller may do.
+[[nodiscard]] Response get_me(const Call& call);
 [[nodiscard]] Response get_service(const Call& call);
 [[nodiscard]] Response get_openapi(const Call& call);
 /// 200 as long as the process answers at all.

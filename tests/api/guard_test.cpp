@@ -54,7 +54,7 @@ TEST_F(GuardTest, AsksForATokenAndSaysHow) {
 }
 
 TEST_F(GuardTest, ShowsHealthAndDescriptionToAnybody) {
-  for (const char* target : {"/healthz", "/readyz", "/api/v1/openapi.json"}) {
+  for (const char* target : {"/healthz", "/readyz", "/api/v1/openapi.json", "/"}) {
     EXPECT_NE(get(target).status, 401) << target;
   }
 }

@@ -198,6 +198,7 @@ TEST_F(OpenapiAnswersTest, FitTheirSchemas) {
            {"/api/v1/incidents/{id}/evidence", "/api/v1/incidents/i1/evidence"},
            {"/api/v1/config", "/api/v1/config"},
            {"/api/v1/evaluation/roc", "/api/v1/evaluation/roc"},
+           {"/api/v1/me", "/api/v1/me"},
            {"/api/v1/service", "/api/v1/service"},
            {"/api/v1/openapi.json", "/api/v1/openapi.json"},
            {"/healthz", "/healthz"},

@@ -10,7 +10,8 @@ namespace {
 using RoutesTest = ApiTest;
 
 TEST_F(RoutesTest, AnswersAnUnknownAddressWithAProblem) {
-  for (const char* target : {"/", "/api", "/api/v1", "/api/v1/robots/", "/api/v1/robots/a/b", "//",
+  for (const char* target : {"/api", "/assets", "/assets/", "/assets/../x", "/api/v1",
+                             "/api/v1/robots/", "/api/v1/robots/a/b", "//",
                              "/api/v1/robots/a/scores/", "/API/v1/robots", "/api/v1/../robots"}) {
     const auto response = get(target);
     EXPECT_EQ(response.status, 404) << target;

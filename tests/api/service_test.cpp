@@ -22,6 +22,10 @@ TEST_F(ServiceTest, TellsItsStatusWithCountsByName) {
   EXPECT_EQ(status["brokerConnected"], false);
 }
 
+TEST_F(ServiceTest, TellsTheCallerWhatItMay) {
+  EXPECT_EQ(body(get("/api/v1/me"))["role"], "admin");
+}
+
 TEST_F(ServiceTest, IsHealthyAsLongAsItAnswers) {
   EXPECT_EQ(get("/healthz").body, R"({"status":"ok"})");
 }
