@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scores against their threshold over time, the robot's states below, incidents as marks above.
+import uPlot from 'uplot';
+import { h, localTime, number } from './dom';
+import type { Series } from './series';
+import { colour, onTheme } from './theme';
+
+export interface Mark {
+  time: number; // seconds since 1970
+  href: string;
+  label: string;
+}
+
+export interface ScorePlot {
+  element: HTMLElement;
+  /** `from` and `to`, in seconds, are what the axis shows; `threshold` draws a line of its own. */
+  show(series: Series, marks?: Mark[], axis?: { from: number; to: number }, threshold?: number): void;
+  dispose(): void;
+}
+
+export interface PlotOptions {
+  label: string;
+  height?: number;
+  /** A stretch was dragged over: seconds since 1970. */
+  onZoom?: (from: number, to: number) => void;
+  /** Where marks lead that are too near each other to be told apart. */
+  hrefOfMany?: (from: number, to: number) => string;
+}
+
+const BAND_HEIGHT = 7;
+const BAND_GAP = 4;
+const NEAR_PX = 14;
+
+export function scorePlot(options: PlotOptions): ScorePlot {
+  const holder = h('div', { class: 'plot-holder' });
+  const summary = h('figcaption', { class: 'visually-hidden' });
+  const element = h('figure', { class: 'plot', 'aria-label': options.label }, holder, summary);
+  let chart: uPlot | undefined;
+  let shown: Parameters<ScorePlot['show']> | undefined;
+
+  const build = () => {
+    chart?.destroy();
+    chart = undefined;
+    if (!shown || holder.clientWidth === 0) return;
+    const [series, marks = [], axis, threshold] = shown;
+    chart = new uPlot(settings(options, series, marks, axis, threshold, holder.clientWidth), columns(series, threshold),
+      holder);
+    summary.textContent = told(series);
+  };
+  const resized = new ResizeObserver(() => {
+    if (!chart) build();
+    else if (chart.width !== holder.clientWidth) chart.setSize({ width: holder.clientWidth, height: chart.height });
+  });
+  resized.observe(holder);
+  const off = onTheme(build);
+
+  return {
+    element,
+    show(...next) {
+      shown = next;
+      build();
+    },
+    dispose() {
+      resized.disconnect();
+      off();
+      chart?.destroy();
+    },
+  };
+}
+
+/** The plot in a sentence. */
+function told({ time, max, threshold }: Series): string {
+  let peak = -1;
+  max.forEach((value, i) => { if (value !== null && (peak < 0 || value > max[peak]!)) peak = i; });
+  if (peak < 0) return 'No scores in this time.';
+  const limit = threshold.findLast((value) => value !== null);
+  return `The highest score is ${number(max[peak])} at ${localTime(new Date(time[peak]! * 1000))}; the threshold is ${
+    number(limit)}.`;
+}
+
+function columns(series: Series, threshold?: number): uPlot.AlignedData {
+  const wanted = series.time.map(() => threshold ?? null);
+  return [series.time, series.min, series.max, series.mean, series.confirmed, series.threshold, wanted];
+}
+
+function settings(options: PlotOptions, series: Series, marks: Mark[], range: { from: number; to: number } | undefined,
+  threshold: number | undefined, width: number): uPlot.Options {
+  const isBuckets = series.resolution > 0;
+  const value = (_: uPlot, raw: number | null) => number(raw);
+  const axis: uPlot.Axis = {
+    stroke: colour('--muted'), grid: { stroke: colour('--line'), width: 1 }, ticks: { stroke: colour('--line'), size: 4 },
+    font: '12px system-ui, sans-serif',
+  };
+  const line = (label: string, stroke: string, more: Partial<uPlot.Series> = {}): uPlot.Series =>
+    ({ label, stroke: colour(stroke), width: 1.5, value, points: { show: false }, ...more });
+  return {
+    width, height: options.height ?? 280,
+    padding: [18, 10, 0, 0],
+    legend: { live: true },
+    cursor: { drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
+    scales: { x: range ? { range: [range.from, range.to] } : {}, y: { range: (_, __, most) => [0, highest(most, series, threshold)] } },
+    bands: [{ series: [2, 1], fill: colour('--band') }],
+    axes: [{ ...axis, gap: BAND_HEIGHT + 2 * BAND_GAP + 2, values: clockTicks }, { ...axis, size: 52, values: (_, ticks) => ticks.map((tick) => number(tick)) }],
+    series: [
+      { label: 'Time', value: (_, raw) => raw === null ? '–' : localTime(new Date(raw * 1000)) },
+      line('Lowest', '--accent', { width: 0, show: isBuckets }),
+      line(isBuckets ? 'Highest' : 'Score', '--accent', { points: { show: !isBuckets && series.time.length < 150, size: 4 } }),
+      line('Mean', '--before', { width: 1, show: isBuckets, dash: [2, 3] }),
+      line('Confirmed', '--seen', { show: series.kind === 'motion' }),
+      line('Threshold', '--kidnapped', { dash: [6, 4] }),
+      line('Proposed', '--suspect', { show: threshold !== undefined, dash: [3, 3] }),
+    ],
+    hooks: {
+      draw: [(u) => states(u, series)],
+      setSelect: [(u) => selected(u, options.onZoom)],
+      ready: [(u) => place(u, marks, options)],
+      setSize: [(u) => place(u, marks, options)],
+    },
+  };
+}
+
+/** A little above the highest score and threshold. */
+function highest(most: number | null, series: Series, threshold = 0): number {
+  const limit = Math.max(threshold, ...series.threshold.map((one) => one ?? 0));
+  return 1.08 * Math.max(most ?? 0, 1.25 * limit, 1e-3);
+}
+
+function clockTicks(_: uPlot, ticks: number[], __: number, ___: number, step: number): string[] {
+  let lastDay = '';
+  return ticks.map((tick) => {
+    const time = new Date(tick * 1000);
+    const day = time.toLocaleDateString(undefined, { month: 'short', day: 'numeric' });
+    const isNew = day !== lastDay;
+    lastDay = day;
+    if (step >= 86400) return day;
+    const text = time.toLocaleTimeString(undefined, {
+      hour: '2-digit', minute: '2-digit', second: step < 60 ? '2-digit' : undefined, hourCycle: 'h23' });
+    return isNew && ticks.length > 1 && time.getHours() === 0 ? `${text}\n${day}` : text;
+  });
+}
+
+/** The robot's state over time, in the gap between plot and axis. */
+function states(u: uPlot, { time, state, resolution }: Series): void {
+  const ratio = uPlot.pxRatio;
+  const top = u.bbox.top + u.bbox.height + BAND_GAP * ratio;
+  u.ctx.save();
+  u.ctx.beginPath();
+  u.ctx.rect(u.bbox.left, top, u.bbox.width, BAND_HEIGHT * ratio);
+  u.ctx.clip();
+  for (let i = 0; i < time.length;) {
+    let end = i + 1;
+    while (end < time.length && state[end] === state[i]) end++;
+    const from = u.valToPos(time[i]!, 'x', true);
+    const to = u.valToPos(time[end] ?? time[end - 1]! + (resolution || 1), 'x', true);
+    if (state[i]) {
+      u.ctx.fillStyle = colour(`--${state[i]}`);
+      u.ctx.fillRect(from, top, Math.max(to - from, 2 * ratio), BAND_HEIGHT * ratio);
+    }
+    i = end;
+  }
+  u.ctx.restore();
+}
+
+function selected(u: uPlot, onZoom: PlotOptions['onZoom']): void {
+  const { left, width } = u.select;
+  if (width < 4) return;
+  u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  onZoom?.(u.posToVal(left, 'x'), u.posToVal(left + width, 'x'));
+}
+
+/** Links above the plot; those too near each other become one with a count. */
+function place(u: uPlot, marks: Mark[], options: PlotOptions): void {
+  u.over.querySelectorAll('.mark').forEach((old) => old.remove());
+  const placed = marks.map((mark) => ({ ...mark, x: u.valToPos(mark.time, 'x') }))
+    .filter(({ x }) => x >= 0 && x <= u.over.clientWidth).sort((a, b) => a.x - b.x);
+  for (let i = 0; i < placed.length;) {
+    const first = placed[i]!;
+    let end = i + 1;
+    while (end < placed.length && placed[end]!.x - first.x < NEAR_PX) end++;
+    const many = end - i;
+    const last = placed[end - 1]!;
+    const isMany = many > 1 && options.hrefOfMany !== undefined;
+    const element = h('a', {
+      class: 'mark', href: isMany ? options.hrefOfMany!(first.time, last.time) : first.href,
+      title: isMany ? `${many} incidents` : first.label, 'aria-label': isMany ? `${many} incidents` : first.label,
+    }, isMany ? String(many) : '');
+    element.style.left = `${(first.x + last.x) / 2}px`;
+    u.over.append(element);
+    i = end;
+  }
+}
