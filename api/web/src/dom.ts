@@ -79,16 +79,17 @@ export function duration(seconds: number): string {
   return `${Math.round(s / 86400)} d`;
 }
 
-/** Seconds since a time of the service, by this machine's clock. */
-export function age(iso: string, now = Date.now()): number {
-  return (now - Date.parse(iso)) / 1000;
-}
-
 /** Three significant digits; "–" for what is not known. */
 export function number(value: number | null | undefined, digits = 3): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   if (Math.abs(value) >= 10 ** (digits - 1)) return Math.round(value).toLocaleString('en');
   return String(Number(value.toPrecision(digits)));
+}
+
+/** A score or a threshold: one decimal, so that a column of them is easy to read. */
+export function scoreText(value: number | null | undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '–';
+  return value.toLocaleString('en', { minimumFractionDigits: value < 100 ? 1 : 0, maximumFractionDigits: value < 100 ? 1 : 0 });
 }
 
 /** A count, with thin separators. */

@@ -106,8 +106,10 @@ async function read(stopped: AbortSignal, opened: () => void): Promise<void> {
     if (lastId !== undefined) headers['Last-Event-ID'] = lastId;
     const response = await call('/api/v1/events', { headers, signal: cut.signal, cache: 'no-store' });
     opened();
+    const mayHaveMissed = state === 'reconnecting' && lastId === undefined; // it starts anew, not where it was
     isFirst = true;
     become('live');
+    if (mayHaveMissed) gapListeners.forEach((fn) => fn());
     const parser = new EventParser(dispatch);
     const reader = response.body!.pipeThrough(new TextDecoderStream()).getReader();
     for (;;) {

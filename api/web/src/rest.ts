@@ -288,6 +288,20 @@ export function keepToken(secret: string | null): void {
   else sessionStorage.removeItem(TOKEN);
 }
 
+let ahead_ms = 0; // how far this machine's clock is ahead of the service's
+
+/** The service's time, in milliseconds since 1970: this machine's clock may be wrong. */
+export function serviceNow(): number {
+  return Date.now() - ahead_ms;
+}
+
+/** From the Date header, which tells whole seconds. */
+function setClock(response: Response): void {
+  const date = Date.parse(response.headers.get('Date') ?? '');
+  const ahead = Date.now() - date;
+  if (!Number.isNaN(date)) ahead_ms = Math.abs(ahead - 500) < 1500 ? 0 : ahead - 500;
+}
+
 /** fetch() with the token. Throws Problem for anything but 2xx (AbortError where aborted). */
 export async function call(path: string, options: RequestInit = {}): Promise<Response> {
   const headers = new Headers(options.headers);
@@ -300,6 +314,7 @@ export async function call(path: string, options: RequestInit = {}): Promise<Res
     if (options.signal?.aborted) throw error;
     throw new Problem(0, 'The service does not answer.');
   }
+  setClock(response);
   if (response.ok) return response;
   const problem = await problemOf(response);
   if (response.status === 401 && path !== ME) refused();
