@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elements, times and numbers. What comes from robots or people is only ever text.
+import { serviceNow } from './rest';
 
 export type Child = Node | string | number | false | null | undefined | Child[];
 type Listener = (event: never) => void;
@@ -84,6 +85,11 @@ export function number(value: number | null | undefined, digits = 3): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   if (Math.abs(value) >= 10 ** (digits - 1)) return Math.round(value).toLocaleString('en');
   return String(Number(value.toPrecision(digits)));
+}
+
+/** Seconds since a time of the service, by its clock. */
+export function age(iso: string): number {
+  return (serviceNow() - Date.parse(iso)) / 1000;
 }
 
 /** A score or a threshold: one decimal, so that a column of them is easy to read. */

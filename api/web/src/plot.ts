@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scores against their threshold over time, the robot's states below, incidents as marks above.
 import uPlot from 'uplot';
-import { h, localTime, number } from './dom';
+import { h, localTime, number, scoreText, setText } from './dom';
 import type { Series } from './series';
 import { colour, onTheme } from './theme';
 
@@ -27,25 +27,32 @@ export interface PlotOptions {
   hrefOfMany?: (from: number, to: number) => string;
 }
 
+interface Shown {
+  series: Series;
+  marks: Mark[];
+  axis?: { from: number; to: number };
+  threshold?: number;
+}
+
+/** What is drawn with the same lines. */
+const shape = ({ series, threshold }: Shown) => `${series.kind} ${series.resolution > 0} ${threshold !== undefined}`;
+
 const BAND_HEIGHT = 7;
 const BAND_GAP = 4;
-const NEAR_PX = 14;
+const NEAR_PX = 20;
 
 export function scorePlot(options: PlotOptions): ScorePlot {
   const holder = h('div', { class: 'plot-holder' });
   const summary = h('figcaption', { class: 'visually-hidden' });
   const element = h('figure', { class: 'plot', 'aria-label': options.label }, holder, summary);
   let chart: uPlot | undefined;
-  let shown: Parameters<ScorePlot['show']> | undefined;
+  let shown: Shown | undefined;
 
   const build = () => {
     chart?.destroy();
     chart = undefined;
     if (!shown || holder.clientWidth === 0) return;
-    const [series, marks = [], axis, threshold] = shown;
-    chart = new uPlot(settings(options, series, marks, axis, threshold, holder.clientWidth), columns(series, threshold),
-      holder);
-    summary.textContent = told(series);
+    chart = new uPlot(settings(options, () => shown!, holder.clientWidth), columns(shown), holder);
   };
   const resized = new ResizeObserver(() => {
     if (!chart) build();
@@ -56,9 +63,17 @@ export function scorePlot(options: PlotOptions): ScorePlot {
 
   return {
     element,
-    show(...next) {
-      shown = next;
-      build();
+    show(series, marks = [], axis, threshold) {
+      if (chart && chart.select.width > 0) return; // somebody drags over it
+      const old = shown;
+      shown = { series, marks, axis, threshold };
+      setText(summary, told(series));
+      if (!chart || !old || shape(old) !== shape(shown)) {
+        build();
+      } else {
+        chart.setData(columns(shown));
+        place(chart, marks, options);
+      }
     },
     dispose() {
       resized.disconnect();
@@ -78,15 +93,15 @@ function told({ time, max, threshold }: Series): string {
     number(limit)}.`;
 }
 
-function columns(series: Series, threshold?: number): uPlot.AlignedData {
+function columns({ series, threshold }: Shown): uPlot.AlignedData {
   const wanted = series.time.map(() => threshold ?? null);
   return [series.time, series.min, series.max, series.mean, series.confirmed, series.threshold, wanted];
 }
 
-function settings(options: PlotOptions, series: Series, marks: Mark[], range: { from: number; to: number } | undefined,
-  threshold: number | undefined, width: number): uPlot.Options {
+function settings(options: PlotOptions, shown: () => Shown, width: number): uPlot.Options {
+  const { series, threshold } = shown();
   const isBuckets = series.resolution > 0;
-  const value = (_: uPlot, raw: number | null) => number(raw);
+  const value = (_: uPlot, raw: number | null) => scoreText(raw);
   const axis: uPlot.Axis = {
     stroke: colour('--muted'), grid: { stroke: colour('--line'), width: 1 }, ticks: { stroke: colour('--line'), size: 4 },
     font: '12px system-ui, sans-serif',
@@ -98,29 +113,32 @@ function settings(options: PlotOptions, series: Series, marks: Mark[], range: { 
     padding: [18, 10, 0, 0],
     legend: { live: true },
     cursor: { drag: { x: true, y: false, setScale: false }, points: { size: 6 } },
-    scales: { x: range ? { range: [range.from, range.to] } : {}, y: { range: (_, __, most) => [0, highest(most, series, threshold)] } },
+    scales: {
+      x: { range: (_, least, most) => [shown().axis?.from ?? least, shown().axis?.to ?? most] },
+      y: { range: (_, __, most) => [0, highest(most, shown())] },
+    },
     bands: [{ series: [2, 1], fill: colour('--band') }],
     axes: [{ ...axis, gap: BAND_HEIGHT + 2 * BAND_GAP + 2, values: clockTicks }, { ...axis, size: 52, values: (_, ticks) => ticks.map((tick) => number(tick)) }],
     series: [
       { label: 'Time', value: (_, raw) => raw === null ? '–' : localTime(new Date(raw * 1000)) },
       line('Lowest', '--accent', { width: 0, show: isBuckets }),
-      line(isBuckets ? 'Highest' : 'Score', '--accent', { points: { show: !isBuckets && series.time.length < 150, size: 4 } }),
+      line(isBuckets ? 'Highest' : 'Score', '--accent', { points: { show: () => !isBuckets && shown().series.time.length < 150, size: 4 } }),
       line('Mean', '--before', { width: 1, show: isBuckets, dash: [2, 3] }),
       line('Confirmed', '--seen', { show: series.kind === 'motion' }),
       line('Threshold', '--kidnapped', { dash: [6, 4] }),
       line('Proposed', '--suspect', { show: threshold !== undefined, dash: [3, 3] }),
     ],
     hooks: {
-      draw: [(u) => states(u, series)],
+      draw: [(u) => states(u, shown().series)],
       setSelect: [(u) => selected(u, options.onZoom)],
-      ready: [(u) => place(u, marks, options)],
-      setSize: [(u) => place(u, marks, options)],
+      ready: [(u) => place(u, shown().marks, options)],
+      setSize: [(u) => place(u, shown().marks, options)],
     },
   };
 }
 
 /** A little above the highest score and threshold. */
-function highest(most: number | null, series: Series, threshold = 0): number {
+function highest(most: number | null, { series, threshold = 0 }: Shown): number {
   const limit = Math.max(threshold, ...series.threshold.map((one) => one ?? 0));
   return 1.08 * Math.max(most ?? 0, 1.25 * limit, 1e-3);
 }

@@ -129,7 +129,7 @@ function rings(context: CanvasRenderingContext2D, size: number, reach: number, s
   context.fillStyle = colour('--muted');
   context.font = '11px system-ui, sans-serif';
   context.lineWidth = 1;
-  for (let radius = step; radius * scale < size * 0.72; radius += step) {
+  for (let radius = step; radius * scale < size / 2; radius += step) {
     context.beginPath();
     context.arc(size / 2, size / 2, radius * scale, 0, 2 * Math.PI);
     context.stroke();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every robot, the worst first, live. Only rows that can be seen are drawn.
-import { button, count, duration, fill, h, scoreText, setText, words } from '../dom';
+import { age, button, count, duration, fill, h, scoreText, setText, words } from '../dom';
 import { onRobots } from '../live';
 import { link, remember, type Page } from '../page';
 import { at, get, serviceNow, type Robot, type RobotState, type RobotUpdate, type ScoreBucket } from '../rest';
@@ -278,7 +278,7 @@ function refresh(row: Row, parts: Parts, now: number, colours: Ink): void {
   setText(parts.score, scoreText(score));
   parts.score.classList.toggle('is-above', score !== undefined && threshold !== undefined && score > threshold);
   setText(parts.limit, threshold === undefined ? 'learning' : scoreText(threshold));
-  setText(parts.age, duration(now - Date.parse(robot.lastScanAt) / 1000));
+  setText(parts.age, duration(age(robot.lastScanAt)));
   draw(parts.canvas, trace, now, colours);
   row.dirty = false;
 }
