@@ -56,6 +56,12 @@ void project(const Scan& scan, InvalidPolicy policy, Bearings& bearings, Cloud& 
   points.y.resize(kept);
 }
 
+std::vector<std::size_t> kept_beams(const Scan& scan, InvalidPolicy policy) {
+  std::vector<std::size_t> beams;
+  for_each_kept(scan, policy, [&](std::size_t beam, double) { beams.push_back(beam); });
+  return beams;
+}
+
 std::vector<double> kept_ranges(const Scan& scan, InvalidPolicy policy) {
   std::vector<double> ranges_m;
   keep_ranges(scan, policy, ranges_m);

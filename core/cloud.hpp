@@ -49,6 +49,9 @@ void keep_ranges(const Scan& scan, InvalidPolicy policy, std::vector<double>& ra
 /// in the sensor's frame. `points` is replaced; its memory is reused.
 void project(const Scan& scan, InvalidPolicy policy, Bearings& bearings, Cloud& points);
 
+/// The beam of each of these points.
+[[nodiscard]] std::vector<std::size_t> kept_beams(const Scan& scan, InvalidPolicy policy);
+
 /// The same, as a value.
 [[nodiscard]] std::vector<double> kept_ranges(const Scan& scan, InvalidPolicy policy);
 [[nodiscard]] Cloud cloud(const Scan& scan, InvalidPolicy policy);

@@ -71,13 +71,20 @@ void prepare(const Scan& scan, const DissimilarityConfig& config, Bearings& bear
   sample.x = moments(sample.values.x);
 }
 
+Gated gated(const Sample& before, const Sample& now, const DissimilarityConfig& config,
+            DissimilarityWorkspace& workspace) {
+  if (!is_to_be_standardized(before, now, config, workspace.critical_values)) {
+    return {before.values, now.values, false};
+  }
+  return {standardized(before, workspace.before), standardized(now, workspace.now), true};
+}
+
 Dissimilarity dissimilarity(const Sample& before, const Sample& now,
                             const DissimilarityConfig& config, DissimilarityWorkspace& workspace) {
+  const Gated warped = gated(before, now, config, workspace);
   Dissimilarity result;
-  result.standardized = is_to_be_standardized(before, now, config, workspace.critical_values);
-  result.cost = result.standardized ? cost(standardized(before, workspace.before),
-                                           standardized(now, workspace.now), config, workspace.dtw)
-                                    : cost(before.values, now.values, config, workspace.dtw);
+  result.standardized = warped.standardized;
+  result.cost = cost(warped.before, warped.now, config, workspace.dtw);
   result.cost_per_beam = result.cost / static_cast<double>(before.size() + now.size());
   return result;
 }

@@ -65,6 +65,17 @@ struct DissimilarityWorkspace {
   Cloud now;
 };
 
+/// What is warped: the samples, or both standardised.
+struct Gated {
+  const Cloud& before;
+  const Cloud& now;
+  bool standardized = false;
+};
+
+/// Algorithm 3, line 4. What it refers to is in the samples or in the workspace.
+[[nodiscard]] Gated gated(const Sample& before, const Sample& now,
+                          const DissimilarityConfig& config, DissimilarityWorkspace& workspace);
+
 /// Algorithm 3, for samples prepared with this `config`.
 [[nodiscard]] Dissimilarity dissimilarity(const Sample& before, const Sample& now,
                                           const DissimilarityConfig& config,

@@ -2,7 +2,9 @@
 // Dynamic time warping of one scan onto the next. Algorithm 1 (lines 3-5), Remark 1.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "core/cloud.hpp"
 
@@ -20,5 +22,21 @@ namespace kidnapwatch::core {
 
 /// The same for sequences of ranges: the one-dimensional form.
 [[nodiscard]] double dtw_cost(std::span<const double> p, std::span<const double> q);
+
+/// Two matched beams, by their places in the two sequences.
+struct WarpingStep {
+  std::size_t p = 0;
+  std::size_t q = 0;
+  double cost = 0.0;  ///< their L1 distance
+
+  friend bool operator==(const WarpingStep&, const WarpingStep&) = default;
+};
+
+/// A cheapest alignment itself, from both first beams to both last: its costs add up to dtw_cost().
+/// Where several are as cheap, the one that dwells least. A cloud without y is a sequence of
+/// ranges.
+///
+/// Neither cloud is empty. Time and memory O(p.size() q.size()), a byte each.
+[[nodiscard]] std::vector<WarpingStep> dtw_path(const Cloud& p, const Cloud& q);
 
 }  // namespace kidnapwatch::core

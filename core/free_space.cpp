@@ -15,17 +15,15 @@ constexpr float kToleranceShare = 0.03F;
 constexpr float kUnseenReach = 0.8F;  // of range_max: nearer, "nothing there" contradicts a point
 constexpr float kPointsMin = 4.0F;
 
-/// The points of `seen`, at T_observer_seen, held against what `observer` measured.
-void judge(const Contour& observer, const Contour& seen, const Pose& pose,
-           std::span<Tally, kSectors> sectors) {
+/// The points of `seen`, at T_observer_seen, held against what `observer` measured: calls
+/// visit(point, observer's beam, saw through, fits) for each that says something.
+template <typename Visit>
+void hold(const Contour& observer, const Contour& seen, const Pose& pose, Visit visit) {
   const auto c = static_cast<float>(std::cos(pose.theta_rad));
   const auto s = static_cast<float>(std::sin(pose.theta_rad));
   const auto tx = static_cast<float>(pose.x_m);
   const auto ty = static_cast<float>(pose.y_m);
   const float reach = kUnseenReach * static_cast<float>(observer.geometry.range_max_m);
-  const float sector_beams = static_cast<float>(kSectors) *
-                             static_cast<float>(std::abs(observer.geometry.angle_increment_rad)) /
-                             (2.0F * std::numbers::pi_v<float>);
   const bool same_beams = seen.beams == observer.beams;
   for (std::size_t i = 0; i < seen.valid; ++i) {
     const float x = c * seen.px[i] - s * seen.py[i] + tx;
@@ -35,18 +33,28 @@ void judge(const Contour& observer, const Contour& seen, const Pose& pose,
     const std::size_t k = Contour::kMargin + static_cast<std::size_t>(beam);
     const float r = std::sqrt(x * x + y * y);
     const float tolerance = kTolerance_m + kToleranceShare * r;
-    const auto at = static_cast<std::size_t>(static_cast<float>(beam) * sector_beams);
     const bool unseen = observer.far_m[k] <= 0.0F;
     const bool blind = unseen && same_beams && seen.far_m[k] <= 0.0F;
     const bool through = !blind && (unseen ? r < reach : r < observer.near_m[k] - tolerance);
     const bool fits = !unseen && !through && r < observer.far_m[k] + tolerance;
     const bool passing = through ? seen.foreground[seen.pbeam[i]] : observer.foreground[k];
     if (passing && !fits) continue;  // people come and go, and hide what is behind them
+    visit(i, beam, through, fits);
+  }
+}
+
+void judge(const Contour& observer, const Contour& seen, const Pose& pose,
+           std::span<Tally, kSectors> sectors) {
+  const float sector_beams = static_cast<float>(kSectors) *
+                             static_cast<float>(std::abs(observer.geometry.angle_increment_rad)) /
+                             (2.0F * std::numbers::pi_v<float>);
+  hold(observer, seen, pose, [&](std::size_t, int beam, bool through, bool fits) {
+    const auto at = static_cast<std::size_t>(static_cast<float>(beam) * sector_beams);
     Tally& tally = sectors[std::min(at, kSectors - 1)];
     tally.points += 1.0F;
     tally.violating += through ? 1.0F : 0.0F;
     tally.consistent += fits ? 1.0F : 0.0F;
-  }
+  });
 }
 
 /// Share `count` of all points, without the quarter of the sectors that is first by `worse`.
@@ -73,6 +81,15 @@ Tallies contradictions(const Contour& before, const Contour& now, const Pose& mo
   judge(before, now, motion, std::span(tallies).first<kSectors>());
   judge(now, before, inverse(motion), std::span(tallies).last<kSectors>());
   return tallies;
+}
+
+std::vector<std::size_t> violating_beams(const Contour& observer, const Contour& seen,
+                                         const Pose& pose) {
+  std::vector<std::size_t> beams;
+  hold(observer, seen, pose, [&](std::size_t point, int, bool through, bool) {
+    if (through) beams.push_back(seen.pbeam[point] - Contour::kMargin);
+  });
+  return beams;
 }
 
 Agreement agreement(const Tallies& tallies) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/contour.hpp"
 #include "core/pose.hpp"
@@ -30,6 +31,10 @@ using Tallies = std::array<Tally, 2 * kSectors>;
 /// nothing. What is in the foreground
 /// (Contour::foreground) never violates, and what it hides does not count.
 [[nodiscard]] Tallies contradictions(const Contour& before, const Contour& now, const Pose& motion);
+
+/// The beams of `seen` whose points lie where `observer` saw through, if `pose` is T_observer_seen.
+[[nodiscard]] std::vector<std::size_t> violating_beams(const Contour& observer, const Contour& seen,
+                                                       const Pose& pose);
 
 /// What the tallies come to, as shares of the points, 0..1.
 struct Agreement {

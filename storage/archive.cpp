@@ -14,6 +14,16 @@ namespace {
 
 constexpr std::size_t kMaxEvidenceScores = 1000;
 
+constexpr std::string_view kOutbox = R"(
+SELECT event_id, robot, payload, delivered FROM alert WHERE id IN (
+  SELECT id FROM alert WHERE NOT delivered
+  UNION SELECT (SELECT max(id) FROM alert WHERE alert.incident = incident.id)
+  FROM incident WHERE state <> 'resolved') ORDER BY id)";
+
+constexpr std::string_view kAlertNumbers = R"(
+SELECT last, coalesce((SELECT min(id) FROM alert), last + 1) FROM (
+  SELECT coalesce(max(seq), 0) AS last FROM sqlite_sequence WHERE name = 'alert'))";
+
 std::string select(std::string_view columns, std::string_view rest) {
   return "SELECT " + std::string(columns) + " " + std::string(rest);
 }
@@ -65,6 +75,15 @@ std::vector<ConfigText> all_configs(Statement& query) {
   std::vector<ConfigText> configs;
   while (query.step()) configs.push_back(config_from(query));
   return configs;
+}
+
+std::vector<StoredAlert> all_alerts(Statement& query) {
+  std::vector<StoredAlert> alerts;
+  while (query.step()) {
+    alerts.push_back(
+        {.number = query.integer(0), .robot = query.text(1), .payload = query.text(2)});
+  }
+  return alerts;
 }
 
 }  // namespace
@@ -181,7 +200,7 @@ std::vector<ConfigText> Archive::configs(const ConfigFilter& filter) const {
 
 std::vector<OutboxMessage> Archive::outbox() const {
   const Lease lease(*this);
-  Statement query(lease, "SELECT event_id, robot, payload, delivered FROM outbox ORDER BY id");
+  Statement query(lease, kOutbox);
   std::vector<OutboxMessage> messages;
   while (query.step()) {
     messages.push_back({.event_id = query.text(0),
@@ -190,6 +209,27 @@ std::vector<OutboxMessage> Archive::outbox() const {
                         .delivered = query.integer(3) != 0});
   }
   return messages;
+}
+
+std::vector<StoredAlert> Archive::alerts(std::int64_t after, std::size_t limit) const {
+  const Lease lease(*this);
+  Statement query(lease, "SELECT id, robot, payload FROM alert WHERE id > ?1 ORDER BY id LIMIT ?2");
+  query.bind(after, limit);
+  return all_alerts(query);
+}
+
+std::vector<StoredAlert> Archive::alerts_of(const std::string& incident_id) const {
+  const Lease lease(*this);
+  Statement query(lease, "SELECT id, robot, payload FROM alert WHERE incident = ?1 ORDER BY id");
+  query.bind(incident_id);
+  return all_alerts(query);
+}
+
+AlertNumbers Archive::alert_numbers() const {
+  const Lease lease(*this);
+  Statement query(lease, kAlertNumbers);
+  query.step();
+  return {.first = query.integer(1), .last = query.integer(0)};
 }
 
 std::vector<Gap> Archive::gaps() const {

@@ -56,6 +56,12 @@ class Archive {
   /// which they were written.
   [[nodiscard]] std::vector<OutboxMessage> outbox() const;
 
+  /// In the order in which they were written, at most `limit`, only those after number `after`.
+  [[nodiscard]] std::vector<StoredAlert> alerts(std::int64_t after, std::size_t limit) const;
+  /// Of an incident, oldest first.
+  [[nodiscard]] std::vector<StoredAlert> alerts_of(const std::string& incident_id) const;
+  [[nodiscard]] AlertNumbers alert_numbers() const;
+
   /// Where scores are missing, oldest first.
   [[nodiscard]] std::vector<Gap> gaps() const;
 

@@ -18,15 +18,6 @@ ON CONFLICT (id) DO UPDATE SET
   shelved_until = ?18, label = ?19, comment = ?20
 WHERE ?3 >= seq)";
 
-// Of the incident of message ?1: the latest alert stays until the incident is resolved.
-constexpr std::string_view kTidyOutbox = R"(
-WITH this (incident) AS (SELECT incident FROM outbox WHERE event_id = ?1)
-DELETE FROM outbox
-WHERE incident = (SELECT incident FROM this) AND delivered AND (
-  id < (SELECT max(id) FROM outbox WHERE incident = (SELECT incident FROM this))
-  OR EXISTS (SELECT 1 FROM incident
-             WHERE id = (SELECT incident FROM this) AND state = 'resolved')))";
-
 AuditEntry audit_entry(const IncidentChange& change) {
   const auto& incident = change.incident;
   return {.at = change.changed_at,
@@ -45,14 +36,13 @@ Journal::Journal(Database& database)
                               std::string(kScanColumns) +
                               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)"),
       add_config_(database, "INSERT INTO config VALUES (?1, ?2, ?3, ?4, ?5)"),
-      add_message_(database,
-                   "INSERT OR IGNORE INTO outbox (event_id, incident, robot, payload) "
-                   "VALUES (?1, ?2, ?3, ?4)"),
+      add_alert_(database,
+                 "INSERT OR IGNORE INTO alert (event_id, incident, robot, payload) "
+                 "VALUES (?1, ?2, ?3, ?4)"),
       add_gap_(database, "INSERT INTO gap (since, until, reason, scores) VALUES (?1, ?2, ?3, ?4)"),
       put_learned_(database,
                    "INSERT INTO learned VALUES (?1, ?2) ON CONFLICT DO UPDATE SET numbers = ?2"),
-      confirm_(database, "UPDATE outbox SET delivered = 1 WHERE event_id = ?1"),
-      tidy_outbox_(database, kTidyOutbox),
+      confirm_(database, "UPDATE alert SET delivered = 1 WHERE event_id = ?1"),
       audit_(database) {}
 
 void Journal::put(const IncidentChange& change) {
@@ -62,7 +52,7 @@ void Journal::put(const IncidentChange& change) {
   if (database_.changes() > 0) audit_.append(audit_entry(change));
   if (change.evidence) add_evidence(incident.id, *change.evidence);
   if (const auto& alert = change.alert) {
-    add_message_.bind(alert->event_id, incident.id, alert->robot, alert->payload).run();
+    add_alert_.bind(alert->event_id, incident.id, alert->robot, alert->payload).run();
   }
 }
 
@@ -91,9 +81,6 @@ void Journal::put_learned(const std::string& robot, std::span<const float> numbe
   put_learned_.bind(robot, std::as_bytes(numbers)).run();
 }
 
-void Journal::confirm(const std::string& event_id) {
-  confirm_.bind(event_id).run();
-  tidy_outbox_.bind(event_id).run();
-}
+void Journal::confirm(const std::string& event_id) { confirm_.bind(event_id).run(); }
 
 }  // namespace kidnapwatch::storage

@@ -33,11 +33,10 @@ class Journal {
   Statement put_incident_;
   Statement add_scan_;
   Statement add_config_;
-  Statement add_message_;
+  Statement add_alert_;
   Statement add_gap_;
   Statement put_learned_;
   Statement confirm_;
-  Statement tidy_outbox_;
   AuditTrail audit_;
 };
 

@@ -13,8 +13,8 @@
 
 namespace kidnapwatch::storage {
 
-/// An alert that is to be delivered at least once: kept until the receiver has confirmed it, and
-/// the latest of an incident as long as that is unresolved.
+/// An alert that is to be delivered at least once: until the receiver has confirmed it, and the
+/// latest of an incident as long as that is unresolved.
 struct OutboxMessage {
   std::string event_id;  ///< the same message again is ignored
   std::string robot;
@@ -22,6 +22,23 @@ struct OutboxMessage {
   bool delivered = false;
 
   friend bool operator==(const OutboxMessage&, const OutboxMessage&) = default;
+};
+
+/// An alert as it was stored, for those who follow them all.
+struct StoredAlert {
+  std::int64_t number = 0;  ///< greater than that of all committed before, from 1, with holes
+  std::string robot;
+  std::string payload;
+
+  friend bool operator==(const StoredAlert&, const StoredAlert&) = default;
+};
+
+/// What a follower can still be told.
+struct AlertNumbers {
+  std::int64_t first = 0;  ///< of those that are kept; last + 1 if none is
+  std::int64_t last = 0;   ///< that was ever given; 0 before the first
+
+  friend bool operator==(const AlertNumbers&, const AlertNumbers&) = default;
 };
 
 /// A new or changed incident, and all that is stored with it in one transaction.

@@ -74,12 +74,14 @@ CREATE TABLE learned (
   robot TEXT PRIMARY KEY, numbers BLOB NOT NULL  -- float32, little-endian
 ) STRICT, WITHOUT ROWID;
 
--- Alerts that nobody has confirmed yet, and the latest of each unresolved incident.
-CREATE TABLE outbox (
-  id INTEGER PRIMARY KEY, event_id TEXT NOT NULL UNIQUE,
+-- Every change of an incident as it was told, in the order of the commits. AUTOINCREMENT: whoever
+-- follows them remembers an id, which is never given again.
+CREATE TABLE alert (
+  id INTEGER PRIMARY KEY AUTOINCREMENT, event_id TEXT NOT NULL UNIQUE,
   incident TEXT NOT NULL REFERENCES incident ON DELETE CASCADE,
   robot TEXT NOT NULL, payload TEXT NOT NULL, delivered INTEGER NOT NULL DEFAULT 0) STRICT;
-CREATE INDEX outbox_of_incident ON outbox (incident, id);
+CREATE INDEX alert_of_incident ON alert (incident, id);
+CREATE INDEX alert_undelivered ON alert (id) WHERE NOT delivered;
 
 -- Scores that are missing, by time of arrival: the last one before and the first one after.
 CREATE TABLE gap (

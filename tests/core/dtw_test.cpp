@@ -168,5 +168,29 @@ TEST(DtwCost, TiesBothEnds) {
   EXPECT_EQ(dtw_cost(std::vector{0.0, 9.0}, std::vector{9.0, 0.0}), 18.0);
 }
 
+RC_GTEST_PROP(DtwPath, IsAWarpingPathOfTheLeastCost, ()) {
+  const Cloud p = drawn_cloud(30, 40);
+  const Cloud q = drawn_cloud(30, 40);
+  const auto steps = dtw_path(p, q);
+  RC_ASSERT(steps.front().p == 0 && steps.front().q == 0);
+  RC_ASSERT(steps.back().p == p.size() - 1 && steps.back().q == q.size() - 1);
+  double cost = 0.0;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    RC_ASSERT(steps[k].cost == distance(p, steps[k].p, q, steps[k].q));
+    cost += steps[k].cost;
+    if (k == 0) continue;
+    const auto on_p = steps[k].p - steps[k - 1].p;
+    const auto on_q = steps[k].q - steps[k - 1].q;
+    RC_ASSERT(on_p <= 1 && on_q <= 1 && on_p + on_q > 0);
+  }
+  RC_ASSERT(cost == dtw_cost(p, q));
+}
+
+TEST(DtwPath, OfRangesMatchesWhatIsAlike) {
+  const Cloud p{{1.0, 1.0, 5.0}, {}};
+  const Cloud q{{1.0, 5.0, 5.0}, {}};
+  EXPECT_EQ(dtw_path(p, q), (std::vector<WarpingStep>{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 0}}));
+}
+
 }  // namespace
 }  // namespace kidnapwatch::core

@@ -92,5 +92,16 @@ TEST(FreeSpace, HasNoOpinionOnEmptyScans) {
   EXPECT_EQ(between(nothing, nothing).sectors, 0U);
 }
 
+TEST(FreeSpace, TellsWhichBeamsSeeWhatCannotBeThere) {
+  const Scan far = round_room(4.0, at_s(0.0), 120);
+  Scan near = far;
+  for (std::size_t i = 20; i < 60; ++i) near.ranges_m[i] = 2.0F;  // too wide for somebody
+  const auto beams = violating_beams(traced(far), traced(near), {});
+  ASSERT_EQ(beams.size(), 40U);
+  EXPECT_EQ(beams.front(), 20U);
+  EXPECT_EQ(beams.back(), 59U);
+  EXPECT_TRUE(violating_beams(traced(near), traced(far), {}).empty());  // those are only hidden
+}
+
 }  // namespace
 }  // namespace kidnapwatch::core

@@ -37,7 +37,7 @@ class Delivery : public ::testing::Test {
   }
 
   [[nodiscard]] bool all_delivered() const {
-    return stored("SELECT event_id FROM outbox WHERE NOT delivered").empty();
+    return stored("SELECT event_id FROM alert WHERE NOT delivered").empty();
   }
 
   void start_service(const std::vector<std::string>& more_flags = {}) {
@@ -68,7 +68,7 @@ TEST_F(Delivery, AnAlertIsDoneWhenTheBrokerHasConfirmedIt) {
   start_service();
   kidnap_two();
   EXPECT_TRUE(eventually([&] { return all_delivered(); }));
-  EXPECT_EQ(stored("SELECT event_id FROM outbox WHERE delivered").size(), 2U);  // not resolved
+  EXPECT_EQ(stored("SELECT event_id FROM alert WHERE delivered").size(), 2U);  // not resolved
   for (const auto& [event, times] : received("eventId")) EXPECT_EQ(times, 1) << event;
   expect_whole_store();
 }
@@ -79,7 +79,8 @@ TEST_F(Delivery, OpenIncidentsAreAnnouncedAgainToABrokerThatCameBack) {
   start_service();
   kidnap_two();
   ASSERT_TRUE(eventually([&] { return all_delivered(); }));
-  const auto open = stored("SELECT event_id FROM outbox");
+  const auto open = stored(
+      "SELECT event_id FROM alert WHERE id IN (SELECT max(id) FROM alert GROUP BY incident)");
   cable.swallow(true);
   stack_.broker.kill();
   std::filesystem::remove(stack_.broker.folder() / "mosquitto.db");  // it has forgotten all
@@ -98,8 +99,8 @@ TEST_F(Delivery, WhatAnEarlierServiceLeftUndeliveredGoesOutAtTheNextStart) {
   ASSERT_TRUE(eventually([&] { return all_delivered(); }));
   stack_.service->signal(SIGKILL);
   (void)stack_.service->wait();
-  (void)stored("UPDATE outbox SET delivered = 0");  // as if it had died before the confirmation
-  const auto open = stored("SELECT event_id FROM outbox");
+  (void)stored("UPDATE alert SET delivered = 0");  // as if it had died before the confirmation
+  const auto open = stored("SELECT event_id FROM alert");
   stack_.subscribe("kidnapwatch/v1/+/alert");
   start_service();
   EXPECT_TRUE(eventually([&] { return all_delivered(); }));
@@ -114,8 +115,8 @@ TEST_F(Delivery, EveryIncidentArrivesThroughKillsOfBrokerAndService) {
       stack_.robots_in_background({"simulate", "--robots", "4", "--rate", "5", "--duration",
                                    "36000", "--kidnap-every", "20", "--speed", "20"});
   for (int kill = 0; kill < 3; ++kill) {
-    const auto before = stored("SELECT event_id FROM outbox");
-    EXPECT_TRUE(eventually([&] { return stored("SELECT event_id FROM outbox") != before; }));
+    const auto before = stored("SELECT event_id FROM alert");
+    EXPECT_TRUE(eventually([&] { return stored("SELECT event_id FROM alert") != before; }));
     stack_.broker.kill();
     stack_.broker.start();
     EXPECT_TRUE(eventually([&] { return stack_.status_of("/readyz") == 200; }));

@@ -49,7 +49,7 @@ class Promise : public ::testing::Test {
   }
 
   [[nodiscard]] bool all_delivered() const {
-    return number("SELECT count(*) FROM outbox WHERE NOT delivered") == 0;
+    return number("SELECT count(*) FROM alert WHERE NOT delivered") == 0;
   }
 
   /// The names of what the service calls degraded now.

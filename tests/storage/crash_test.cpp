@@ -77,7 +77,7 @@ TEST(Crash, NothingAcknowledgedIsLostOrDoubledAndTheFileIsIntact) {
     ASSERT_EQ(damage(folder.store(), std::chrono::minutes(1)), std::nullopt);
     Database database(folder.store(), Access::read_only);
     const auto incidents = database.integer("SELECT count(*) FROM incident");
-    EXPECT_EQ(database.integer("SELECT count(*) FROM outbox"), incidents);
+    EXPECT_EQ(database.integer("SELECT count(*) FROM alert"), incidents);
     EXPECT_EQ(database.integer("SELECT count(*) FROM audit"), incidents);
     EXPECT_EQ(database.integer("SELECT count(*) FROM evidence_scan"), 2 * incidents);
   }

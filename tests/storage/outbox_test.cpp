@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include "storage/archive.hpp"
+#include "storage/sqlite.hpp"
 #include "storage/writer.hpp"
 #include "tests/storage/fault_vfs.hpp"
 #include "tests/storage/store_folder.hpp"
@@ -45,7 +46,7 @@ TEST(Outbox, TheLatestAlertOfAnIncidentStaysUntilThatIsResolved) {
   incident.state = core::IncidentState::resolved;
   change(3);
   writer.flush().get();
-  EXPECT_EQ(archive.outbox(), (std::vector{delivered(2), alert(3)}));
+  EXPECT_EQ(archive.outbox(), std::vector{alert(3)});
   confirm(3);
   EXPECT_TRUE(archive.outbox().empty());
 }
@@ -93,6 +94,39 @@ TEST(Outbox, AnAlertIsThereExactlyIfItsIncidentIs) {
   writer.flush().get();
   EXPECT_TRUE(archive.incident(incident_id(1)));
   EXPECT_EQ(archive.outbox(), std::vector{delivered(1)});
+}
+
+TEST(Alerts, AreFollowedInTheOrderOfTheirCommitsFromWhereOneStopped) {
+  const StoreFolder folder;
+  Writer writer({.file = folder.store()});
+  const Archive archive(folder.store(), writer.recent());
+  EXPECT_EQ(archive.alert_numbers(), (AlertNumbers{.first = 1, .last = 0}));
+  for (const int i : {2, 1, 3}) {
+    writer.put_incident({.incident = incident_of(i), .alert = alert(i)});
+    writer.confirm_delivery(alert(i).event_id);  // they stay
+  }
+  writer.flush().get();
+  const auto all = archive.alerts(0, 100);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].payload, alert(2).payload);
+  EXPECT_EQ(all[2].payload, alert(3).payload);
+  EXPECT_EQ(archive.alerts(0, 2), (std::vector{all[0], all[1]}));
+  EXPECT_EQ(archive.alerts(all[1].number, 100), std::vector{all[2]});
+  EXPECT_EQ(archive.alerts_of(incident_id(1)), std::vector{all[1]});
+  EXPECT_EQ(archive.alert_numbers(), (AlertNumbers{.first = all[0].number, .last = all[2].number}));
+}
+
+TEST(Alerts, ANumberIsNeverGivenAgain) {
+  const StoreFolder folder;
+  Writer writer({.file = folder.store()});
+  writer.put_incident({.incident = incident_of(1), .alert = alert(1)});
+  writer.flush().get();
+  Database(folder.store(), Access::read_write).execute("DELETE FROM alert");  // as retention does
+  const Archive archive(folder.store(), writer.recent());
+  EXPECT_EQ(archive.alert_numbers(), (AlertNumbers{.first = 2, .last = 1}));
+  writer.put_incident({.incident = incident_of(2), .alert = alert(2)});
+  writer.flush().get();
+  EXPECT_EQ(archive.alerts(1, 100).at(0).payload, alert(2).payload);
 }
 
 }  // namespace

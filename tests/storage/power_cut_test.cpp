@@ -79,7 +79,7 @@ void count(Toll& toll, const Cut& cut) {
   };
   const auto incidents = rows("incident");
   toll.lost += std::max(0, cut.acknowledged - static_cast<int>(incidents));
-  const bool is_one = incidents == rows("outbox") && incidents == rows("audit") &&
+  const bool is_one = incidents == rows("alert") && incidents == rows("audit") &&
                       2 * incidents == rows("evidence_scan");
   toll.separated += is_one ? 0 : 1;
 }
