@@ -31,6 +31,8 @@ struct Caller {
   std::vector<std::string> robots;  ///< the only ones that it may know of; empty: all
 
   [[nodiscard]] bool may_see(std::string_view robot) const;
+
+  friend bool operator==(const Caller&, const Caller&) = default;
 };
 
 /// What is kept of a token.

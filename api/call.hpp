@@ -9,6 +9,7 @@
 #include "adapters/codecs/json.hpp"
 #include "api/guard.hpp"
 #include "api/http.hpp"
+#include "api/live.hpp"
 #include "api/ports.hpp"
 
 namespace kidnapwatch::api {
@@ -18,6 +19,7 @@ struct Ports {
   Fleet& fleet;
   const History& history;
   Guard& guard;
+  LiveRobots& live;
 };
 
 struct Call {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,12 +17,11 @@
 #include "api/connections.hpp"
 #include "api/problem.hpp"
 #include "api/server.hpp"
+#include "api/wire.hpp"
 
 namespace kidnapwatch::api {
 
 namespace net = boost::asio;
-namespace http = boost::beast::http;
-using boost::system::error_code;
 using net::ip::tcp;
 using std::chrono::milliseconds;
 
@@ -36,44 +36,8 @@ struct Shared {
   ServerConfig config;
   Server::Answer answer;
   Connections connections;
+  std::atomic<std::size_t> feeds = 0;
 };
-
-inline Request plain(http::request<http::string_body>&& message, const std::string& peer) {
-  Request request{
-      std::string(message.method_string()), std::string(message.target()), {}, {}, peer};
-  for (const auto& field : message) {
-    request.headers.push_back({std::string(field.name_string()), std::string(field.value())});
-  }
-  request.body = std::move(message.body());
-  return request;
-}
-
-inline http::response<http::string_body> message(Response&& response, bool keep_alive) {
-  http::response<http::string_body> result(static_cast<http::status>(response.status), 11);
-  for (const auto& [name, value] : response.headers) {
-    result.insert(name, value);
-  }
-  result.set(http::field::cache_control, "no-cache");
-  result.set("X-Content-Type-Options", "nosniff");
-  result.keep_alive(keep_alive);
-  if (!response.content_type.empty()) {
-    result.set(http::field::content_type, response.content_type);
-    result.body() = std::move(response.body);
-    result.prepare_payload();
-  }
-  return result;
-}
-
-/// The status that tells a client what was wrong with what it sent.
-inline int status_of(error_code error) {
-  if (error == http::error::header_limit || error == http::error::buffer_overflow) {
-    return 431;
-  }
-  if (error == http::error::body_limit) {
-    return 413;
-  }
-  return error == http::error::bad_version ? 505 : 400;
-}
 
 inline constexpr std::size_t kFirstBytes = 2048;  // of a request, at most, at once
 
@@ -92,7 +56,12 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
     socket(stream_).set_option(tcp::no_delay(true), ignored);
   }
 
-  ~Connection() { shared_->connections.leave(this); }
+  ~Connection() {
+    if (feed_) {
+      --shared_->feeds;
+    }
+    shared_->connections.leave(this);
+  }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
@@ -247,13 +216,20 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
 
   void send(Response response, bool keep_alive) {
     answering_ = true;
+    if (response.feed && !head_ && ++shared_->feeds > config().max_feeds) {
+      --shared_->feeds;
+      response = problem(503, "too many clients follow the events");
+      response.headers.push_back({"Retry-After", "10"});
+    } else if (response.feed && !head_) {
+      feed_ = response.feed;
+    }
     message_ = message(std::move(response), keep_alive);
     serializer_.emplace(message_);
     allow(config().write_timeout, &Connection::close);
     auto sent = [self = this->shared_from_this()](error_code error, std::size_t) {
       error ? self->close() : self->on_sent();
     };
-    if (head_) {
+    if (head_ || feed_) {
       http::async_write_header(stream_, *serializer_, std::move(sent));
     } else {
       http::async_write(stream_, *serializer_, std::move(sent));
@@ -264,10 +240,41 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
     answering_ = false;
     if (stopping_) {
       close();
+    } else if (feed_) {
+      drain();  // to hear when the client leaves
+      follow();
     } else if (message_.keep_alive()) {
       wait_for_request();
     } else {
       linger();
+    }
+  }
+
+  /// Sends what there is to say, and looks for more a little later.
+  void follow() {
+    if (!socket(stream_).is_open()) {
+      return;
+    }
+    auto piece = next_piece();
+    if (!piece) {
+      close();
+    } else if (piece->empty()) {
+      allow(config().feed_every, &Connection::follow);
+    } else {
+      piece_ = std::move(*piece);
+      allow(config().write_timeout, &Connection::close);
+      net::async_write(stream_, net::buffer(piece_),
+                       [self = this->shared_from_this()](error_code error, std::size_t) {
+                         error ? self->close() : self->follow();
+                       });
+    }
+  }
+
+  std::optional<std::string> next_piece() {
+    try {
+      return feed_->next();
+    } catch (const std::exception&) {
+      return std::nullopt;  // the client comes back, and is told then
     }
   }
 
@@ -332,10 +339,12 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
   std::optional<http::request_parser<http::string_body>> parser_;
   http::response<http::string_body> message_;
   std::optional<http::response_serializer<http::string_body>> serializer_;
-  bool head_ = false;       // the request is HEAD
-  bool late_ = false;       // the request took too long
-  bool answering_ = false;  // a response is being made or written
-  bool stopping_ = false;   // after this response
+  std::shared_ptr<Feed> feed_;  // of a response that has no end
+  std::string piece_;           // of it, being written
+  bool head_ = false;           // the request is HEAD
+  bool late_ = false;           // the request took too long
+  bool answering_ = false;      // a response is being made or written
+  bool stopping_ = false;       // after this response
 };
 
 }  // namespace kidnapwatch::api

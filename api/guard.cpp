@@ -40,23 +40,25 @@ Response too_many(double wait_s) {
 
 }  // namespace
 
-std::variant<Caller, Response> Guard::admit(const Request& request) {
-  const std::string_view secret = secret_of(header(request, "Authorization"));
-  std::optional<Caller> caller;
+std::optional<Caller> Guard::caller(const Request& request) const {
   if (!lookup_) {
-    caller = Caller{.name = request.peer};
-  } else if (!secret.empty()) {
-    caller = lookup_(secret);
+    return Caller{.name = request.peer};
   }
+  const std::string_view secret = secret_of(header(request, "Authorization"));
+  return secret.empty() ? std::nullopt : lookup_(secret);
+}
+
+std::variant<Caller, Response> Guard::admit(const Request& request) {
+  const auto known = caller(request);
   // A wrong token is charged to the address, so that guessing is no faster than asking.
-  const std::string client = lookup_ && caller ? "token " + caller->name : request.peer;
+  const std::string client = lookup_ && known ? "token " + known->name : request.peer;
   if (const double wait_s = limit_.wait_s(client, now_s_()); wait_s > 0.0) {
     return too_many(wait_s);
   }
-  if (!caller) {
-    return unauthorized(!secret.empty());
+  if (!known) {
+    return unauthorized(!secret_of(header(request, "Authorization")).empty());
   }
-  return *caller;
+  return *known;
 }
 
 }  // namespace kidnapwatch::api

@@ -26,6 +26,9 @@ class Guard {
   /// of the name of its address.
   [[nodiscard]] std::variant<Caller, Response> admit(const Request& request);
 
+  /// Who calls, at no charge: for what was admitted, and goes on.
+  [[nodiscard]] std::optional<Caller> caller(const Request& request) const;
+
  private:
   const Lookup lookup_;
   RateLimit limit_;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +26,20 @@ struct Request {
   std::string peer;  ///< the client's address
 };
 
+/// A body without an end, made piece by piece. One thread at a time.
+class Feed {
+ public:
+  virtual ~Feed() = default;
+  /// What is to be sent now, empty if nothing is; nothing at all: it ends here after all.
+  [[nodiscard]] virtual std::optional<std::string> next() = 0;
+};
+
 struct Response {
   int status = 200;
   std::string content_type;  ///< empty exactly if there is no content, as in 304
   std::string body;          ///< for HEAD too: the server leaves it out
   std::vector<Header> headers = {};
+  std::shared_ptr<Feed> feed = nullptr;  ///< in place of the body, while somebody listens
 };
 
 /// What stands before the next `separator`, which is taken off `rest` with it: all of `rest` if

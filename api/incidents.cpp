@@ -94,10 +94,24 @@ Response get_incident(const Call& call) {
 }
 
 Response get_evidence(const Call& call) {
-  const auto evidence =
-      visible_incident(call) ? call.ports.history.evidence(call.id) : std::nullopt;
-  return evidence ? ok_text(evidence_json(*evidence))
-                  : problem(404, "no evidence is kept of an incident " + call.id);
+  const auto incident = visible_incident(call);
+  const auto evidence = incident ? call.ports.history.evidence(call.id) : std::nullopt;
+  if (!evidence) {
+    return problem(404, "no evidence is kept of an incident " + call.id);
+  }
+  const auto config = call.ports.fleet.config(incident->robot).effective.config;
+  return ok_text(evidence_json(*evidence, core::sight(evidence->scans, config)));
+}
+
+Response get_incident_history(const Call& call) {
+  if (!visible_incident(call)) {
+    return no_such_incident(call);
+  }
+  Json body{{"history", Json::array()}};
+  for (const auto& alert : call.ports.history.alerts_of(call.id)) {
+    body["history"].push_back(adapters::codecs::change_json(alert.json));
+  }
+  return ok(body);
 }
 
 Response post_incident(const Call& call) {

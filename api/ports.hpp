@@ -55,7 +55,8 @@ struct Unavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The running service. Every function may be called from any thread and answers from memory.
+/// The running service. Every function may be called from any thread and answers from memory, but
+/// for those that say that they throw Unavailable: they wait for the robot's turn.
 class Fleet {
  public:
   virtual ~Fleet() = default;
@@ -71,6 +72,9 @@ class Fleet {
   /// VersionConflict unless `seen_version` is that of config(robot).
   virtual ConfigView put_config(const std::string& robot, const Json& values,
                                 std::int64_t seen_version, const std::string& author) = 0;
+  /// The robot's last two good scans, oldest first; fewer if there were not so many, or there is no
+  /// such robot. Throws Unavailable.
+  [[nodiscard]] virtual std::vector<core::Scan> last_scans(const std::string& robot) = 0;
   /// The incident after a command that passed check(), as it is stored; nothing where its state
   /// does not allow it, or there is none. Throws Unavailable.
   virtual std::optional<core::Incident> change_incident(const std::string& id,
@@ -93,6 +97,19 @@ struct IncidentQuery {
   std::size_t limit = 100;
 };
 
+/// An alert as it was told, for those who follow them all.
+struct NumberedAlert {
+  std::int64_t number = 0;  ///< greater than those of all before
+  std::string robot;
+  std::string json;  ///< the message, on one line
+};
+
+/// Of the alerts that a follower can still be told.
+struct AlertNumbers {
+  std::int64_t first = 1;  ///< that is kept; last + 1 if none is
+  std::int64_t last = 0;   ///< that was ever given
+};
+
 /// What was stored. Every function may be called from any thread; each is one consistent read.
 class History {
  public:
@@ -108,6 +125,13 @@ class History {
   [[nodiscard]] virtual std::optional<core::Incident> incident(const std::string& id) const = 0;
   [[nodiscard]] virtual std::optional<core::Evidence> evidence(
       const std::string& incident_id) const = 0;
+  /// In the order in which they came about, at most `limit`, only those after number `after`.
+  [[nodiscard]] virtual std::vector<NumberedAlert> alerts(std::int64_t after,
+                                                          std::size_t limit) const = 0;
+  /// Of an incident, oldest first.
+  [[nodiscard]] virtual std::vector<NumberedAlert> alerts_of(
+      const std::string& incident_id) const = 0;
+  [[nodiscard]] virtual AlertNumbers alert_numbers() const = 0;
   [[nodiscard]] virtual std::vector<ConfigChange> configs(const ConfigQuery& query) const = 0;
 };
 

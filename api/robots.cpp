@@ -9,6 +9,7 @@
 #include "adapters/codecs/history_json.hpp"
 #include "adapters/codecs/rfc3339.hpp"
 #include "adapters/codecs/status_json.hpp"
+#include "api/problem.hpp"
 #include "core/bad_input.hpp"
 
 namespace kidnapwatch::api {
@@ -78,6 +79,17 @@ Response get_robots(const Call& call) {
 Response get_robot(const Call& call) {
   const auto robot = call.caller.may_see(call.id) ? call.ports.fleet.robot(call.id) : std::nullopt;
   return robot ? ok(json(*robot)) : no_such_robot(call);
+}
+
+Response get_scans(const Call& call) {
+  if (!call.caller.may_see(call.id) || !call.ports.fleet.robot(call.id)) {
+    return no_such_robot(call);
+  }
+  try {
+    return ok_text(adapters::codecs::scans_json(call.ports.fleet.last_scans(call.id)));
+  } catch (const Unavailable& busy) {
+    return problem(503, busy.what());
+  }
 }
 
 Response get_scores(const Call& call) {

@@ -9,6 +9,8 @@ namespace kidnapwatch::api {
 [[nodiscard]] Response get_robots(const Call& call);
 [[nodiscard]] Response get_robot(const Call& call);
 /// JSON, or CSV where the client prefers it.
+/// The last two good scans.
+[[nodiscard]] Response get_scans(const Call& call);
 [[nodiscard]] Response get_scores(const Call& call);
 
 }  // namespace kidnapwatch::api

@@ -8,6 +8,7 @@
 
 #include "api/assets.hpp"
 #include "api/config.hpp"
+#include "api/events.hpp"
 #include "api/incidents.hpp"
 #include "api/problem.hpp"
 #include "api/robots.hpp"
@@ -23,12 +24,14 @@ constexpr std::nullopt_t kAnybody = std::nullopt;
 constexpr std::array kRoutes{
     Route{"GET", "/api/v1/robots", "", Role::viewer, get_robots},
     Route{"GET", "/api/v1/robots/{id}", "", Role::viewer, get_robot},
+    Route{"GET", "/api/v1/robots/{id}/scans", "", Role::viewer, get_scans},
     Route{"GET", "/api/v1/robots/{id}/scores", "from to resolution limit", Role::viewer,
           get_scores},
     Route{"GET", "/api/v1/incidents", "robot state kind label from to cursor limit", Role::viewer,
           get_incidents},
     Route{"GET", "/api/v1/incidents/{id}", "", Role::viewer, get_incident},
     Route{"GET", "/api/v1/incidents/{id}/evidence", "", Role::viewer, get_evidence},
+    Route{"GET", "/api/v1/incidents/{id}/history", "", Role::viewer, get_incident_history},
     Route{"POST", "/api/v1/incidents/{id}/ack", "", Role::operator_, post_incident},
     Route{"POST", "/api/v1/incidents/{id}/unack", "", Role::operator_, post_incident},
     Route{"POST", "/api/v1/incidents/{id}/resolve", "", Role::operator_, post_incident},
@@ -48,6 +51,7 @@ constexpr std::array kRoutes{
     Route{"POST", "/api/v1/thresholds:calibrate", "", Role::operator_, calibrate_threshold},
     Route{"GET", "/api/v1/evaluation/roc", "detector robot from to", Role::viewer, get_roc},
     Route{"GET", "/api/v1/me", "", Role::viewer, get_me},
+    Route{"GET", "/api/v1/events", "robot", Role::viewer, get_events},
     Route{"GET", "/api/v1/service", "", Role::viewer, get_service},
     Route{"GET", "/api/v1/openapi.json", "", kAnybody, get_openapi},
     Route{"GET", "/", "", kAnybody, get_page},

@@ -22,6 +22,8 @@ struct ServerConfig {
   std::size_t threads = 1;            ///< that answer requests
   std::size_t max_connections = 256;  ///< beyond: 503
   std::size_t max_connections_per_peer = 256;
+  std::size_t max_feeds = 128;                ///< responses without an end, at a time; beyond: 503
+  std::chrono::milliseconds feed_every{100};  ///< that a silent one is looked after
   std::uint32_t max_header_bytes = 8'192;
   std::uint64_t max_body_bytes = 65'536;
   std::chrono::milliseconds header_timeout{5'000};  ///< from its first byte to its last

@@ -19,9 +19,7 @@ std::optional<Warping> warping(const ScanPair& scans, const DissimilarityConfig&
   Sample after;
   prepare(scans.before, config, bearings, before);
   prepare(scans.after, config, bearings, after);
-  if (before.size() == 0 || after.size() == 0 || before.size() > kCellsMax / after.size()) {
-    return std::nullopt;
-  }
+  if (before.size() > kCellsMax / after.size()) return std::nullopt;
   DissimilarityWorkspace workspace;
   const Gated warped = gated(before, after, config, workspace);
   Warping result{.standardized = warped.standardized, .steps = dtw_path(warped.before, warped.now)};
@@ -60,6 +58,7 @@ std::optional<MotionSight> motion(const ScanPair& scans, const MotionConfig& con
 }  // namespace
 
 Sight sight(const ScanPair& scans, const DetectionConfig& config) {
+  if (!is_comparable(scans.before) || !is_comparable(scans.after)) return {};
   return {.warping = warping(scans, config.dissimilarity), .motion = motion(scans, config.motion)};
 }
 

@@ -33,7 +33,7 @@ struct Sight {
 };
 
 /// Looks at a pair of scans as a session with this `config` does, but without what that has learned
-/// of the robot's wheels. Milliseconds; throws nothing for scans that passed check().
+/// of the robot's wheels. Milliseconds. Empty unless both scans are comparable.
 [[nodiscard]] Sight sight(const ScanPair& scans, const DetectionConfig& config);
 
 }  // namespace kidnapwatch::core

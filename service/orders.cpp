@@ -38,6 +38,16 @@ std::optional<core::Incident> Orders::change_open(const std::string& robot,
   return changed;
 }
 
+std::vector<core::Scan> Orders::last_scans(const std::string& robot) {
+  if (!fleet_.robot(robot)) return {};
+  const auto scans = std::make_shared<std::vector<core::Scan>>();  // outlives an order given up
+  (void)carried_out(robot, [scans](Watch& watch) {
+    *scans = watch.last_scans();
+    return std::nullopt;
+  });
+  return std::move(*scans);
+}
+
 void Orders::forget_scans(const std::string& robot) {
   (void)carried_out(robot, [](Watch& watch) {
     watch.forget_scans();

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/incident_command.hpp"
 #include "service/fleet.hpp"
@@ -27,6 +28,8 @@ class Orders {
   /// The same with the robot's open incident; nothing where none is open.
   std::optional<core::Incident> change_open(const std::string& robot,
                                             const core::IncidentCommand& command);
+  /// As api::Fleet::last_scans.
+  std::vector<core::Scan> last_scans(const std::string& robot);
   void forget_scans(const std::string& robot);
 
  private:

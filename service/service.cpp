@@ -86,6 +86,9 @@ class Service::Parts final : public api::Fleet {
                              std::int64_t seen_version, const std::string& author) override {
     return configs_.put(robot, values, seen_version, author);
   }
+  std::vector<core::Scan> last_scans(const std::string& robot) override {
+    return orders_.last_scans(robot);
+  }
   std::optional<core::Incident> change_incident(const std::string& id,
                                                 const core::IncidentCommand& command) override {
     return orders_.change(id, command);
@@ -125,7 +128,8 @@ class Service::Parts final : public api::Fleet {
   std::uint64_t round_ = 0;                  // used by rounds_ only
   const TokenFile tokens_{settings_.http_tokens_file};
   api::Guard guard_;
-  const api::Ports ports_{*this, history_, guard_};
+  api::LiveRobots live_{*this, monotonic_s};
+  const api::Ports ports_{*this, history_, guard_, live_};
   std::unique_ptr<api::Server> server_;
   Rounds rounds_{kRoundEvery, [this](bool reconnected) { make_round(reconnected); }};
 };
@@ -165,7 +169,8 @@ Service::Parts::Parts(const Settings& settings)
                         .key_file = settings.http_key_file,
                         .threads = 2,  // one may compute a threshold
                         .max_connections = settings.http_max_connections,
-                        .max_connections_per_peer = (settings.http_max_connections + 1) / 2},
+                        .max_connections_per_peer = (settings.http_max_connections + 1) / 2,
+                        .max_feeds = (settings.http_max_connections + 1) / 2},
       [this](const api::Request& request) {
         return api::answer(ports_, request, [](const std::string& fault) {
           spdlog::error("a request failed: {}", fault);

@@ -66,6 +66,18 @@ class StoredHistory final : public api::History {
   [[nodiscard]] std::optional<core::Evidence> evidence(const std::string& id) const override {
     return archive_.evidence(id);
   }
+  [[nodiscard]] std::vector<api::NumberedAlert> alerts(std::int64_t after,
+                                                       std::size_t limit) const override {
+    return numbered(archive_.alerts(after, limit));
+  }
+  [[nodiscard]] std::vector<api::NumberedAlert> alerts_of(
+      const std::string& incident_id) const override {
+    return numbered(archive_.alerts_of(incident_id));
+  }
+  [[nodiscard]] api::AlertNumbers alert_numbers() const override {
+    const auto numbers = archive_.alert_numbers();
+    return {.first = numbers.first, .last = numbers.last};
+  }
   [[nodiscard]] std::vector<api::ConfigChange> configs(
       const api::ConfigQuery& query) const override {
     std::vector<api::ConfigChange> changes;
@@ -77,6 +89,14 @@ class StoredHistory final : public api::History {
   }
 
  private:
+  static std::vector<api::NumberedAlert> numbered(std::vector<storage::StoredAlert> stored) {
+    std::vector<api::NumberedAlert> alerts;
+    for (auto& [number, robot, payload] : stored) {
+      alerts.push_back({number, std::move(robot), std::move(payload)});
+    }
+    return alerts;
+  }
+
   const storage::Archive& archive_;
 };
 

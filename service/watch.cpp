@@ -157,7 +157,14 @@ std::optional<core::Incident> Watch::open_incident() const {
   return incident_open_ ? std::optional(incident_) : std::nullopt;
 }
 
+std::vector<core::Scan> Watch::last_scans() const {
+  if (good_scans_ == 0) return {};
+  if (good_scans_ == 1) return {session_.reference()};
+  return {before_last_, session_.reference()};
+}
+
 void Watch::forget_scans() {
+  good_scans_ = 0;
   session_.forget_scans();
   odometry_ = {};
   refresh_status(status().last_arrival);
@@ -185,8 +192,11 @@ Outcome Watch::outcome_of(const Message& message, Bench& bench) {
     session_.set_fleet_threshold(around_.fleet_threshold->median());
     core::Observation seen = session_.observe(bench.scan, around_.uptime(), bench.workspace);
     if (seen.verdict) {
+      std::swap(before_last_, bench.scan);  // the session left its last reference there
+      ++good_scans_;
       conclude(*seen.verdict, message.arrival);
     } else if (seen.outcome == Outcome::first) {
+      good_scans_ = 1;
       (void)others_.observe(session_.reference());
     }
     return seen.outcome;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "adapters/codecs/odometry_json.hpp"
 #include "adapters/codecs/particles_payload.hpp"
@@ -101,6 +102,8 @@ class Watch {
                                           const core::IncidentCommand& command);
   /// On the robot's lane.
   [[nodiscard]] std::optional<core::Incident> open_incident() const;
+  /// On the robot's lane: the last good scans, at most two, oldest first.
+  [[nodiscard]] std::vector<core::Scan> last_scans() const;
   /// On the robot's lane: the next scan is compared with none before it.
   void forget_scans();
   /// On the robot's lane, now and then: tells when the robot fell silent.
@@ -128,6 +131,8 @@ class Watch {
   const Surroundings& around_;
   std::shared_ptr<const core::ConfigVersion> config_;
   core::Session session_;
+  core::Scan before_last_;      // the good scan before the session's reference
+  std::size_t good_scans_ = 0;  // that the session took since it has a reference
   core::OdometryTrack odometry_;
   OtherDetectors others_;
   core::Incident incident_;  // the latest; meaningless before the first

@@ -47,6 +47,25 @@ std::set<core::DetectorId> detectors(std::span<const core::Score> scores) {
   return found;
 }
 
+Json json(const core::Pose& pose) {
+  return {{"x", pose.x_m}, {"y", pose.y_m}, {"theta", pose.theta_rad}};
+}
+
+Json json(const core::Warping& warping) {
+  Json steps = Json::array();
+  for (const auto& [before, after, cost] : warping.steps) {
+    steps.push_back(Json::array({before, after, shortest(static_cast<float>(cost))}));
+  }
+  return {{"cost", warping.cost}, {"standardized", warping.standardized}, {"steps", steps}};
+}
+
+Json json(const core::MotionSight& motion) {
+  Json object{{"seen", json(motion.seen)}};
+  if (motion.told) object["told"] = json(*motion.told);
+  object["violating"] = {{"before", motion.violating_before}, {"after", motion.violating_after}};
+  return object;
+}
+
 std::string csv_cell(const core::Score& score, core::DetectorId detector) {
   const auto found = std::ranges::find(score.others, detector, &core::DetectorScore::detector);
   return "," + (found == score.others.end() ? std::string() : number(shortest(found->score)));
@@ -143,7 +162,36 @@ Json json(const core::Incident& incident) {
   return object;
 }
 
-std::string evidence_json(const core::Evidence& evidence) {
+std::string scans_json(std::span<const core::Scan> scans) {
+  std::string json_text = "{";
+  if (scans.size() > 1) {
+    json_text += R"("before":)";
+    append_json(json_text, scans.front());
+    json_text += ",";
+  }
+  if (!scans.empty()) {
+    json_text += R"("after":)";
+    append_json(json_text, scans.back());
+  }
+  return json_text + "}";
+}
+
+Json change_json(const std::string& alert_message) {
+  const Json alert = parsed(alert_message, "stored alert");
+  Json change = Json::object();
+  const auto take = [&](const char* from, const char* as) {
+    if (const auto found = alert.find(from); found != alert.end()) change[as] = *found;
+  };
+  take("timestamp", "time");
+  take("author", "author");
+  take("type", "action");
+  for (const char* member : {"seq", "state", "shelvedUntil", "label", "comment"}) {
+    take(member, member);
+  }
+  return change;
+}
+
+std::string evidence_json(const core::Evidence& evidence, const core::Sight& sight) {
   Json scores = Json::array();
   for (const auto& score : evidence.scores) {
     scores.push_back(json(score));
@@ -152,7 +200,10 @@ std::string evidence_json(const core::Evidence& evidence) {
   append_json(json_text, evidence.scans.before);
   json_text += R"(,"after":)";
   append_json(json_text, evidence.scans.after);
-  return json_text + R"(,"scores":)" + text(scores) + "}";
+  json_text += R"(,"scores":)" + text(scores);
+  if (sight.warping) json_text += R"(,"warping":)" + text(json(*sight.warping));
+  if (sight.motion) json_text += R"(,"motion":)" + text(json(*sight.motion));
+  return json_text + "}";
 }
 
 std::string scores_csv(std::span<const core::Score> scores) {

@@ -11,6 +11,7 @@
 #include "adapters/codecs/json.hpp"
 #include "core/incident.hpp"
 #include "core/score_buckets.hpp"
+#include "core/sight.hpp"
 
 namespace kidnapwatch::adapters::codecs {
 
@@ -21,9 +22,16 @@ namespace kidnapwatch::adapters::codecs {
 /// What people did about it; members without anything to say are left out.
 void set_care(Json& object, const core::Incident& incident);
 
-/// As text: both scans as sensor_msgs/LaserScan, with null for a beam that is NaN or infinite, and
-/// the scores.
-[[nodiscard]] std::string evidence_json(const core::Evidence& evidence);
+/// What an alert tells of the change that it stands for: when, who, what. `alert_message` is one of
+/// alert_message().
+[[nodiscard]] Json change_json(const std::string& alert_message);
+
+/// As text, like all that has scans: {"before", "after"}, or less where there are fewer than two.
+[[nodiscard]] std::string scans_json(std::span<const core::Scan> scans);
+
+/// As text: both scans as sensor_msgs/LaserScan, with null for a beam that is NaN or infinite, the
+/// scores, and what the detectors saw between the scans.
+[[nodiscard]] std::string evidence_json(const core::Evidence& evidence, const core::Sight& sight);
 
 /// RFC 4180, a header line with the names of json(Score) first. An absent threshold is empty.
 [[nodiscard]] std::string scores_csv(std::span<const core::Score> scores);

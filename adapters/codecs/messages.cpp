@@ -31,6 +31,7 @@ std::string alert_message(const core::Alert& alert) {
                {"incidentId", incident.id},
                {"seq", incident.seq},
                {"type", core::name(alert.type)},
+               {"author", alert.author},
                {"kind", core::name(incident.kind)},
                {"cause", core::name(incident.cause)},
                {"robotId", incident.robot},

@@ -50,6 +50,24 @@ Json json(const core::RobotStatus& robot) {
   return object;
 }
 
+Json brief_json(const core::RobotStatus& robot) {
+  Json object{{"id", robot.id},
+              {"state", core::name(robot.state)},
+              {"lastScanAt", rfc3339(robot.last_arrival)}};
+  if (robot.trouble) object["trouble"] = name(*robot.trouble);
+  set(object, "incidentId", robot.incident_id);
+  set(object, "threshold", robot.threshold);
+  set(object, "motionThreshold", robot.motion_threshold);
+  if (const auto& score = robot.score) {
+    set(object, "score", score->dissimilarity.cost);
+    if (const auto& motion = score->motion) {
+      set(object, "motion", motion->score);
+      set(object, "motionConfirmed", motion->confirmed);
+    }
+  }
+  return object;
+}
+
 Json json(const core::ServiceStatus& service) {
   return {{"version", service.version},
           {"startedAt", rfc3339(service.started)},

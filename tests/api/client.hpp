@@ -102,6 +102,13 @@ class Client {
     return reply;
   }
 
+  /// So many bytes, fewer if the connection ended before.
+  std::string read_some(std::size_t length) {
+    while (unread_.size() < length && receive()) {
+    }
+    return take(length);
+  }
+
   /// Everything up to the end of the connection.
   std::string read_to_end() {
     while (receive()) {

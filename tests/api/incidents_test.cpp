@@ -127,5 +127,28 @@ TEST_F(IncidentsTest, ShowWhatTheyWereConcludedFrom) {
   EXPECT_EQ(get("/api/v1/incidents/0190-4/evidence").status, 404);
 }
 
+TEST_F(IncidentsTest, ShowWhatTheDetectorsSawWhereBothScansCanBeCompared) {
+  core::Evidence evidence;
+  evidence.scans.before.geometry = {0.0, 0.1, 0.1, 10.0};
+  evidence.scans.before.ranges_m.assign(60, 2.0F);
+  evidence.scans.after = evidence.scans.before;
+  history.all_evidence.emplace_back("0190-3", evidence);
+  const auto shown = body(get("/api/v1/incidents/0190-3/evidence"));
+  EXPECT_EQ(shown["warping"]["steps"].size(), 60U);
+  EXPECT_EQ(shown["warping"]["cost"], 0.0);
+  EXPECT_TRUE(shown["motion"]["violating"]["before"].empty());
+}
+
+TEST_F(IncidentsTest, TellWhoDidWhat) {
+  history.all_alerts = {
+      {1, "odd", R"({"incidentId":"0190-3","type":"opened","author":"kidnapwatch","seq":1})"},
+      {2, "odd", R"({"incidentId":"0190-1","type":"opened","author":"kidnapwatch","seq":1})"},
+      {3, "odd", R"({"incidentId":"0190-3","type":"acknowledged","author":"ada","seq":2})"}};
+  const auto shown = body(get("/api/v1/incidents/0190-3/history"))["history"];
+  ASSERT_EQ(shown.size(), 2U);
+  EXPECT_EQ(shown[1], (Json{{"author", "ada"}, {"action", "acknowledged"}, {"seq", 2}}));
+  EXPECT_EQ(get("/api/v1/incidents/0191/history").status, 404);
+}
+
 }  // namespace
 }  // namespace kidnapwatch::api

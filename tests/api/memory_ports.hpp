@@ -70,6 +70,15 @@ class MemoryFleet : public Fleet {
     return result;
   }
 
+  [[nodiscard]] std::vector<core::Scan> last_scans(const std::string& /*robot*/) override {
+    if (busy) {
+      throw Unavailable("busy");
+    }
+    return scans_now;
+  }
+
+  std::vector<core::Scan> scans_now;
+
   /// Told what is to be done; answers what `changed` is then.
   std::optional<core::Incident> change_incident(const std::string& id,
                                                 const core::IncidentCommand& command) override {
@@ -174,6 +183,37 @@ class MemoryHistory : public History {
     return std::nullopt;
   }
 
+  std::vector<NumberedAlert> all_alerts;  ///< in order
+  std::int64_t last_alert = 0;            ///< that was ever given, if all are gone
+
+  [[nodiscard]] std::vector<NumberedAlert> alerts(std::int64_t after,
+                                                  std::size_t limit) const override {
+    std::vector<NumberedAlert> found;
+    for (const auto& one : all_alerts) {
+      if (one.number > after && found.size() < limit) {
+        found.push_back(one);
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::vector<NumberedAlert> alerts_of(const std::string& incident) const override {
+    std::vector<NumberedAlert> found;
+    for (const auto& one : all_alerts) {
+      if (one.json.find(incident) != std::string::npos) {
+        found.push_back(one);
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] AlertNumbers alert_numbers() const override {
+    if (all_alerts.empty()) {
+      return {.first = last_alert + 1, .last = last_alert};
+    }
+    return {.first = all_alerts.front().number, .last = all_alerts.back().number};
+  }
+
   [[nodiscard]] std::vector<ConfigChange> configs(const ConfigQuery& query) const override {
     std::vector<ConfigChange> found;
     for (const auto& one : all_configs) {
@@ -196,7 +236,7 @@ class MemoryHistory : public History {
 class ApiTest : public ::testing::Test {
  protected:
   Response call(const Request& request) {
-    return answer({fleet, history, *guard}, request,
+    return answer({fleet, history, *guard, live}, request,
                   [this](const std::string& what) { report = what; });
   }
 
@@ -243,6 +283,8 @@ class ApiTest : public ::testing::Test {
   /// As where no tokens are needed and nobody is too fast.
   std::unique_ptr<Guard> guard =
       std::make_unique<Guard>(nullptr, RateLimitConfig{.per_s = 0.0}, [] { return 0.0; });
+  double now_s = 0.0;
+  LiveRobots live{fleet, [this] { return now_s; }};
   std::string report;
 };
 

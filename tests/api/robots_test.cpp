@@ -136,5 +136,16 @@ TEST_F(RobotsTest, RefuseARangeThatIsNone) {
   }
 }
 
+TEST_F(RobotsTest, ShowTheirLastScans) {
+  fleet.scans_now.resize(2);
+  fleet.scans_now[1].ranges_m = {2.0F};
+  EXPECT_EQ(body(get("/api/v1/robots/r1/scans"))["after"]["ranges"], Json::array({2.0}));
+  fleet.scans_now.clear();
+  EXPECT_EQ(get("/api/v1/robots/r1/scans").body, "{}");
+  fleet.busy = true;
+  EXPECT_EQ(get("/api/v1/robots/r1/scans").status, 503);
+  EXPECT_EQ(get("/api/v1/robots/nobody/scans").status, 404);
+}
+
 }  // namespace
 }  // namespace kidnapwatch::api

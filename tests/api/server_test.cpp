@@ -3,8 +3,12 @@
 #include "api/server.hpp"
 
 #include <latch>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -221,6 +225,105 @@ TEST(Server, StopsWhateverClientsAreAt) {
     for (auto& client : clients) {
       client.read_to_end();  // ends
     }
+  }
+}
+
+/// Says what it is given, and ends with "end".
+class Told final : public Feed {
+ public:
+  std::optional<std::string> next() override {
+    const std::lock_guard lock(mutex_);
+    auto text = std::exchange(text_, "");
+    return text == "end" ? std::nullopt : std::optional(text);
+  }
+  void say(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    text_ += text;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::string text_;
+};
+
+class ServerFeed : public ::testing::Test {
+ protected:
+  ServerFeed() { config_.max_feeds = 1; }
+
+  Response answer() {
+    Response response{200, "text/event-stream", ""};
+    response.feed = told_;
+    return response;
+  }
+
+  std::shared_ptr<Told> told_ = std::make_shared<Told>();
+  ServerConfig config_ = any_port();
+};
+
+TEST_F(ServerFeed, SendsWhatComesUpUntilItEnds) {
+  const Server server(config_, [this](const Request&) { return answer(); });
+  Client client(server.port());
+  client.get("/");
+  const auto head = client.read().head;
+  EXPECT_NE(head.find("200 OK"), std::string::npos);
+  EXPECT_NE(head.find("Content-Type: text/event-stream"), std::string::npos);
+  EXPECT_EQ(head.find("Content-Length"), std::string::npos);
+  told_->say("one");
+  EXPECT_EQ(client.read_some(3), "one");
+  told_->say("two");
+  EXPECT_EQ(client.read_some(3), "two");
+  told_->say("end");
+  EXPECT_EQ(client.read_to_end(), "");
+}
+
+TEST_F(ServerFeed, RefusesOneTooManyAndTakesItWhenAnotherLeft) {
+  const Server server(config_, [this](const Request&) { return answer(); });
+  {
+    Client first(server.port());
+    first.get("/");
+    (void)first.read();
+    Client second(server.port());
+    second.get("/");
+    EXPECT_EQ(second.read().status, 503);
+  }
+  int status = 503;
+  while (status == 503) {  // until it is heard that the first one left
+    Client third(server.port());
+    third.get("/");
+    status = third.read().status;
+  }
+  EXPECT_EQ(status, 200);
+}
+
+TEST_F(ServerFeed, ThatIsAskedForByHeadHasNone) {
+  const Server server(config_, [this](const Request&) { return answer(); });
+  Client client(server.port());
+  client.send("HEAD / HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(client.read(true).status, 200);
+  told_->say("nobody hears this");
+  EXPECT_EQ(client.read_to_end(), "");
+}
+
+TEST_F(ServerFeed, EndsWithTheServer) {
+  Client client = [&] {
+    const Server server(config_, [this](const Request&) { return answer(); });
+    Client follower(server.port());
+    follower.get("/");
+    (void)follower.read();
+    return follower;
+  }();
+  EXPECT_EQ(client.read_to_end(), "");
+}
+
+TEST_F(ServerFeed, CutsAClientThatDoesNotTakeIt) {
+  config_.write_timeout = std::chrono::milliseconds(200);
+  const Server server(config_, [this](const Request&) { return answer(); });
+  Client client(server.port());
+  client.get("/");
+  (void)client.read();
+  told_->say(std::string(64U << 20U, 'x'));  // more than all buffers on the way hold
+  while (told_.use_count() > 1) {
+    std::this_thread::yield();
   }
 }
 

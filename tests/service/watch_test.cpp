@@ -63,6 +63,21 @@ TEST_F(WatchTest, RaisesOneIncidentWhenTheRoomChanges) {
             (std::vector<std::string>{"r1 suspect", "r1 kidnapped"}));  // normal from the start
 }
 
+TEST_F(WatchTest, KeepsTheLastTwoGoodScans) {
+  EXPECT_TRUE(watch_.last_scans().empty());
+  drive(2.0, 1);
+  ASSERT_EQ(watch_.last_scans().size(), 1U);
+  drive(3.0, 1);
+  send("no scan");
+  const auto scans = watch_.last_scans();
+  ASSERT_EQ(scans.size(), 2U);
+  EXPECT_NEAR(scans[0].ranges_m[0], 2.0, 0.02);
+  EXPECT_NEAR(scans[1].ranges_m[0], 3.0, 0.02);
+  EXPECT_LT(scans[0].stamp, scans[1].stamp);
+  watch_.forget_scans();
+  EXPECT_TRUE(watch_.last_scans().empty());
+}
+
 TEST_F(WatchTest, AnotherJumpUpdatesTheOpenIncidentAndRestResolvesIt) {
   drive(2.0, 3);
   drive(6.0, 3);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "adapters/codecs/messages.hpp"
 namespace kidnapwatch::adapters::codecs {
 namespace {
 
@@ -95,7 +96,7 @@ TEST(HistoryJson, SpellsScansAsLaserScanWithNullForMisses) {
                            .ranges_m = {1.2F, inf, nan, -inf, 0.0F},
                            .odometry = core::Pose{1.0, 2.0, 0.5}};
   evidence.scores = {score()};
-  const Json spelled = parsed(evidence_json(evidence), "evidence");
+  const Json spelled = parsed(evidence_json(evidence, {}), "evidence");
   EXPECT_EQ(
       text(spelled["before"]),
       R"({"header":{"stamp":{"sec":-1,"nanosec":999999999},"frame_id":"laser"},"angle_min":-1,)"
@@ -110,8 +111,42 @@ TEST(HistoryJson, WritesRangesThatReadBackAsTheSameFloats) {
   for (float range_m = 0.001F; range_m < 100.0F; range_m *= 1.37F) {
     evidence.scans.after.ranges_m.push_back(range_m);
   }
-  const auto read = parsed(evidence_json(evidence), "evidence")["after"]["ranges"];
+  const auto read = parsed(evidence_json(evidence, {}), "evidence")["after"]["ranges"];
   EXPECT_EQ(read.get<std::vector<float>>(), evidence.scans.after.ranges_m);
+}
+
+TEST(HistoryJson, SpellsWhatTheDetectorsSaw) {
+  const core::Sight sight{
+      .warping =
+          core::Warping{.cost = 1.5, .standardized = false, .steps = {{0, 0, 0.5}, {1, 0, 1.0}}},
+      .motion = core::MotionSight{.told = core::Pose{0.25, 0.0, 0.0},
+                                  .seen = {1.0, 2.0, 0.5},
+                                  .violating_before = {3},
+                                  .violating_after = {}}};
+  const Json spelled = parsed(evidence_json({}, sight), "evidence");
+  EXPECT_EQ(text(spelled["warping"]),
+            R"({"cost":1.5,"standardized":false,"steps":[[0,0,0.5],[1,0,1.0]]})");
+  EXPECT_EQ(text(spelled["motion"]),
+            R"({"seen":{"x":1.0,"y":2.0,"theta":0.5},"told":{"x":0.25,"y":0.0,"theta":0.0},)"
+            R"("violating":{"before":[3],"after":[]}})");
+  EXPECT_FALSE(parsed(evidence_json({}, {}), "evidence").contains("warping"));
+}
+
+TEST(HistoryJson, SpellsTheLastScansAsFarAsThereAreSome) {
+  const core::Scan scan{.geometry = {-1.0, 0.5, 0.12, 3.5}, .ranges_m = {1.2F}};
+  EXPECT_EQ(scans_json({}), "{}");
+  EXPECT_EQ(parsed(scans_json(std::vector{scan}), "scans").size(), 1U);
+  const Json both = parsed(scans_json(std::vector{scan, scan}), "scans");
+  EXPECT_EQ(both["before"], both["after"]);
+}
+
+TEST(HistoryJson, TellsOfAChangeWhoDidWhatWhen) {
+  core::Alert alert{.event_id = "e", .type = core::AlertType::acknowledged, .author = "ada"};
+  alert.incident.seq = 2;
+  alert.incident.comment = "a forklift";
+  EXPECT_EQ(text(change_json(alert_message(alert))),
+            R"({"time":"1970-01-01T00:00:00.000000000Z","author":"ada","action":"acknowledged",)"
+            R"("seq":2,"state":"open","comment":"a forklift"})");
 }
 
 TEST(HistoryJson, WritesScoresAsCsv) {
