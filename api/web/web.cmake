@@ -30,7 +30,7 @@ if(KW_UI)
     COMMAND ${CMAKE_COMMAND} -E copy_if_different ${sources} ${WEB}
     COMMAND ${CMAKE_COMMAND} -E create_symlink ${WEB_SOURCE}/src ${WEB}/src
     COMMAND ${NODE} node_modules/typescript/bin/tsc
-    COMMAND ${NODE} build.mjs dist.dist.d ${WEB}/dist/index.html
+    COMMAND ${NODE} build.mjs dist dist.d ${WEB}/dist/index.html
     DEPENDS ${WEB}/installed ${sources}
     DEPFILE ${WEB}/dist.d
     WORKING_DIRECTORY ${WEB}
