@@ -56,6 +56,7 @@ constexpr std::array kRoutes{
     Route{"GET", "/api/v1/openapi.json", "", kAnybody, get_openapi},
     Route{"GET", "/", "", kAnybody, get_page},
     Route{"GET", "/assets/{id}", "", kAnybody, get_asset},
+    Route{"GET", "/api/v1/asyncapi.json", "", kAnybody, get_asyncapi},
     Route{"GET", "/healthz", "", kAnybody, get_health},
     Route{"GET", "/readyz", "", kAnybody, get_readiness},
     Route{"GET", "/metrics", "", Role::viewer, get_metrics},

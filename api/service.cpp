@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The service's own state, and the description of this API.
+// The service's own state, and the descriptions of REST and MQTT.
 #include "api/service.hpp"
 
 #include "adapters/codecs/status_json.hpp"
-#include "api/openapi.hpp"
+#include "api/descriptions.hpp"
 
 namespace kidnapwatch::api {
 
@@ -22,6 +22,8 @@ Response get_service(const Call& call) {
 }
 
 Response get_openapi(const Call& /*call*/) { return ok_text(std::string(openapi_json())); }
+
+Response get_asyncapi(const Call& /*call*/) { return ok_text(std::string(asyncapi_json())); }
 
 Response get_health(const Call& /*call*/) { return ok({{"status", "ok"}}); }
 

@@ -10,6 +10,7 @@ namespace kidnapwatch::api {
 [[nodiscard]] Response get_me(const Call& call);
 [[nodiscard]] Response get_service(const Call& call);
 [[nodiscard]] Response get_openapi(const Call& call);
+[[nodiscard]] Response get_asyncapi(const Call& call);
 /// 200 as long as the process answers at all.
 [[nodiscard]] Response get_health(const Call& call);
 /// 503 with the reasons while the service cannot do its work: no broker, no store.

@@ -189,6 +189,7 @@ mqtt::LinkConfig Service::Parts::link_config() const {
                      .keep_alive = std::chrono::seconds(settings_.mqtt_keep_alive_s)},
           .client_id = settings_.mqtt_client_id,
           .topics = {.prefix = settings_.mqtt_prefix, .scan_filters = settings_.mqtt_scan_filters},
+          .status_schema = std::string(codecs::kServiceStatusSchema),
           .online = codecs::service_status_message("online", KW_VERSION, started_),
           .stopped = codecs::service_status_message("stopped", KW_VERSION, started_),
           .offline = codecs::service_status_message("offline", KW_VERSION, started_)};

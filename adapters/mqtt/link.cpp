@@ -56,6 +56,7 @@ Message Link::status(const std::string& payload) const {
   message.qos = 1;
   message.retain = true;
   message.content_type = config_.content_type;
+  message.schema = config_.status_schema;
   return message;
 }
 

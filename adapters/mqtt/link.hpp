@@ -19,6 +19,7 @@ struct LinkConfig {
   SendQueueConfig queue;
   std::string content_type = "application/json";  ///< of all that is published
   std::chrono::seconds alert_expiry{24 * 3600};   ///< at the broker, for robots that are away
+  std::string status_schema = {};                 ///< user property of what follows
   // What is retained on service/status:
   std::string online;   ///< while the service is there, until another is given
   std::string stopped;  ///< after it left in order

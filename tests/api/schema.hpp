@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As much of JSON Schema 2020-12 as openapi.yaml uses.
+// As much of JSON Schema 2020-12 as openapi.yaml and asyncapi.yaml use.
 #pragma once
 
 #include <algorithm>
@@ -56,6 +56,11 @@ inline std::string number_misfit(const Json& schema, double value) {
   return fits ? "" : "is out of range";
 }
 
+inline bool fits_any(const Json& document, const Json& schemas, const Json& value) {
+  return std::ranges::any_of(schemas,
+                             [&](const Json& one) { return misfit(document, one, value).empty(); });
+}
+
 /// What of `value` does not fit the schema; empty if all does.
 inline std::string misfit(const Json& document, const Json& reference, const Json& value) {
   const Json& schema = resolved(document, reference);
@@ -70,6 +75,9 @@ inline std::string misfit(const Json& document, const Json& reference, const Jso
                            });
   if (!typed) {
     return value.dump() + " is not of type " + types.dump();
+  }
+  if (schema.contains("anyOf") && !fits_any(document, schema["anyOf"], value)) {
+    return value.dump() + " fits none of " + schema["anyOf"].dump();
   }
   if (schema.contains("const") && value != schema["const"]) {
     return value.dump() + " is not " + schema["const"].dump();

@@ -2,7 +2,7 @@
 // What would have alarmed, which threshold meets a rate, and what labels say.
 #include "api/tuning.hpp"
 
-#include "api/openapi.hpp"
+#include "api/descriptions.hpp"
 #include "core/calibration.hpp"
 #include "memory_ports.hpp"
 #include "schema.hpp"
