@@ -72,7 +72,6 @@ export function scorePlot(options: PlotOptions): ScorePlot {
         build();
       } else {
         chart.setData(columns(shown));
-        place(chart, marks, options);
       }
     },
     dispose() {
@@ -129,10 +128,8 @@ function settings(options: PlotOptions, shown: () => Shown, width: number): uPlo
       line('Proposed', '--suspect', { show: threshold !== undefined, dash: [3, 3] }),
     ],
     hooks: {
-      draw: [(u) => states(u, shown().series)],
+      draw: [(u) => states(u, shown().series), (u) => place(u, shown().marks, options)],
       setSelect: [(u) => selected(u, options.onZoom)],
-      ready: [(u) => place(u, shown().marks, options)],
-      setSize: [(u) => place(u, shown().marks, options)],
     },
   };
 }
@@ -186,24 +183,31 @@ function selected(u: uPlot, onZoom: PlotOptions['onZoom']): void {
   onZoom?.(u.posToVal(left, 'x'), u.posToVal(left + width, 'x'));
 }
 
-/** Links above the plot; those too near each other become one with a count. */
+/** Links above the plot; those too near each other become one with a count. Elements are kept, and with
+ * them the focus. */
 function place(u: uPlot, marks: Mark[], options: PlotOptions): void {
-  u.over.querySelectorAll('.mark').forEach((old) => old.remove());
   const placed = marks.map((mark) => ({ ...mark, x: u.valToPos(mark.time, 'x') }))
     .filter(({ x }) => x >= 0 && x <= u.over.clientWidth).sort((a, b) => a.x - b.x);
+  const elements = [...u.over.querySelectorAll<HTMLAnchorElement>('.mark')];
+  let used = 0;
   for (let i = 0; i < placed.length;) {
-    const first = placed[i]!;
     let end = i + 1;
-    while (end < placed.length && placed[end]!.x - first.x < NEAR_PX) end++;
-    const many = end - i;
-    const last = placed[end - 1]!;
-    const isMany = many > 1 && options.hrefOfMany !== undefined;
-    const element = h('a', {
-      class: 'mark', href: isMany ? options.hrefOfMany!(first.time, last.time) : first.href,
-      title: isMany ? `${many} incidents` : first.label, 'aria-label': isMany ? `${many} incidents` : first.label,
-    }, isMany ? String(many) : '');
-    element.style.left = `${(first.x + last.x) / 2}px`;
-    u.over.append(element);
+    while (end < placed.length && placed[end]!.x - placed[i]!.x < NEAR_PX) end++;
+    const element = elements[used++] ?? u.over.appendChild(h('a', { class: 'mark' }));
+    point(element, placed.slice(i, end), options);
     i = end;
   }
+  elements.slice(used).forEach((element) => element.remove());
+}
+
+function point(element: HTMLAnchorElement, marks: (Mark & { x: number })[], { hrefOfMany }: PlotOptions): void {
+  const first = marks[0]!;
+  const last = marks.at(-1)!;
+  const isMany = marks.length > 1 && hrefOfMany !== undefined;
+  const label = isMany ? `${marks.length} incidents` : first.label;
+  element.href = isMany ? hrefOfMany(first.time, last.time) : first.href;
+  element.title = label;
+  element.setAttribute('aria-label', label);
+  setText(element, isMany ? String(marks.length) : '');
+  element.style.left = `${(first.x + last.x) / 2}px`;
 }

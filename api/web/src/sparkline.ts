@@ -43,19 +43,20 @@ export function ink(): Ink {
   return { line: colour('--accent'), above: colour('--kidnapped'), threshold: colour('--line-strong') };
 }
 
-/** Draws the minutes before `now` (in seconds). */
-export function draw(canvas: HTMLCanvasElement, trace: Trace, now: number, { line, above, threshold }: Ink): void {
+/** Draws the `span` seconds before `now` (in seconds). */
+export function draw(canvas: HTMLCanvasElement, trace: Trace, now: number, { line, above, threshold }: Ink,
+  span = SPAN_S): void {
   const context = canvas.getContext('2d');
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!context || width === 0) return;
   fit(canvas, context, width, height);
   const { times, scores } = trace;
-  const from = now - SPAN_S;
+  const from = now - span;
   const limit = trace.threshold ?? 0;
   let most = 1.4 * limit;
   let first = times.length;
   while (first > 0 && times[first - 1]! >= from) most = Math.max(most, scores[--first]!);
-  const x = (time: number) => ((time - from) / SPAN_S) * width;
+  const x = (time: number) => ((time - from) / span) * width;
   const y = (score: number) => height - 2 - (score / (most || 1)) * (height - 4);
   if (limit > 0) {
     context.strokeStyle = threshold;
