@@ -32,7 +32,7 @@ void Announcements::announce_alert(const core::Alert& alert,
 
 void Announcements::announce_score(const std::string& robot, const core::Score& score,
                                    core::Stamp arrival) {
-  if (publish_scores_) {
+  if (score_rate_.allows(robot, score.state, arrival)) {
     link_.publish_score(robot, codecs::score_message(robot, score),
                         std::string(codecs::kScoreSchema));
   }

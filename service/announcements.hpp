@@ -4,6 +4,7 @@
 
 #include "adapters/mqtt/link.hpp"
 #include "service/outbox.hpp"
+#include "service/score_rate.hpp"
 #include "service/watch.hpp"
 #include "storage/writer.hpp"
 
@@ -11,10 +12,10 @@ namespace kidnapwatch::service {
 
 class Announcements final : public Announcer {
  public:
-  /// All outlive this. `publish_scores`: scores go to the broker, too.
+  /// All outlive this. So many scores of each robot go to the broker in a second, too.
   Announcements(adapters::mqtt::Link& link, storage::Writer& writer, Outbox& outbox,
-                bool publish_scores)
-      : link_(link), writer_(writer), outbox_(outbox), publish_scores_(publish_scores) {}
+                std::size_t scores_per_s)
+      : link_(link), writer_(writer), outbox_(outbox), score_rate_(scores_per_s) {}
 
   void announce_state(const core::RobotStatus& status, core::Stamp now) override;
   void announce_alert(const core::Alert& alert, std::optional<core::ScanPair> evidence) override;
@@ -26,7 +27,7 @@ class Announcements final : public Announcer {
   adapters::mqtt::Link& link_;
   storage::Writer& writer_;
   Outbox& outbox_;
-  const bool publish_scores_;
+  ScoreRate score_rate_;
 };
 
 }  // namespace kidnapwatch::service

@@ -141,7 +141,7 @@ Service::Parts::Parts(const Settings& settings)
       archive_(settings.store_file, writer_.recent()),
       link_(link_config(), link_events()),
       outbox_(outbox_ways()),
-      announcements_(link_, writer_, outbox_, settings.mqtt_publish_scores),
+      announcements_(link_, writer_, outbox_, settings.mqtt_scores_per_s),
       configs_(
           settings.detection, latest_changes(archive_),
           {.now = now,

@@ -30,13 +30,6 @@ void parse(const std::string& key, const std::string& text, std::string& value) 
   value = text;
 }
 
-void parse(const std::string& key, const std::string& text, bool& value) {
-  if (text != "true" && text != "false") {
-    throw BadInput(key, "must be true or false, not '" + text + "'");
-  }
-  value = text == "true";
-}
-
 template <typename Number>
 requires std::is_arithmetic_v<Number>
 void parse(const std::string& key, const std::string& text, Number& value) {
@@ -56,7 +49,6 @@ void parse(const std::string&, const std::string& text, std::vector<std::string>
 }
 
 std::string shown(const std::string& value) { return value; }
-std::string shown(bool value) { return value ? "true" : "false"; }
 std::string shown(const std::vector<std::string>& values) {
   std::string text;
   for (const auto& value : values) {
@@ -145,7 +137,8 @@ std::vector<Setting> table() {
       setting("mqtt.key_file", &S::mqtt_key_file, "the key of that certificate"),
       bounded("mqtt.keep_alive_s", &S::mqtt_keep_alive_s, 1, 3600,
               "a dead connection is noticed within three of these"),
-      setting("mqtt.publish_scores", &S::mqtt_publish_scores, "publish every score, too"),
+      bounded("mqtt.scores_per_s", &S::mqtt_scores_per_s, 0, 1000,
+              "publish so many scores of each robot, and each that changes its state; 0: none"),
       setting("http.host", &S::http_host, "address to listen on"),
       setting("http.port", &S::http_port, "port to listen on; 0 takes a free one"),
       setting("http.cert_file", &S::http_cert_file, "certificate chain, PEM: REST over TLS"),

@@ -26,7 +26,7 @@ struct Settings {
   std::string mqtt_cert_file;
   std::string mqtt_key_file;
   std::size_t mqtt_keep_alive_s = 10;
-  bool mqtt_publish_scores = false;
+  std::size_t mqtt_scores_per_s = 0;
 
   std::string http_host = "127.0.0.1";
   std::uint16_t http_port = 8080;

@@ -80,8 +80,8 @@ TEST_F(SettingsTest, NamesTheKeyThatIsWrong) {
   EXPECT_NE(complaint().find("http.port"), std::string::npos) << complaint();
   write("[service]\nlanes = 0\n");
   EXPECT_NE(complaint().find("service.lanes: must be from 1"), std::string::npos) << complaint();
-  write("[mqtt]\npublish_scores = \"yes\"\n");
-  EXPECT_NE(complaint().find("mqtt.publish_scores: must be true or false"), std::string::npos);
+  write("[mqtt]\nscores_per_s = 1001\n");
+  EXPECT_NE(complaint().find("mqtt.scores_per_s: must be from 0"), std::string::npos);
   write("[detection]\nstale_after_s = -1\n");
   EXPECT_NE(complaint().find("detection.stale_after_s"), std::string::npos) << complaint();
   write("nonsense = 3\n");
