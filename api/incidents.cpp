@@ -11,6 +11,7 @@ namespace kidnapwatch::api {
 namespace {
 
 using adapters::codecs::evidence_json;
+using adapters::codecs::incidents_csv;
 using adapters::codecs::json;
 using adapters::codecs::Json;
 
@@ -73,18 +74,23 @@ Response get_incidents(const Call& call) {
   const auto limit = page_limit(call, kDefaultPage);
   auto wanted = query(call);
   wanted.limit = limit + 1;
-  const auto incidents = visible(call, wanted);
-  Json body{{"incidents", Json::array()}};
-  for (std::size_t i = 0; i < std::min(limit, incidents.size()); ++i) {
-    body["incidents"].push_back(json(incidents[i]));
+  auto incidents = visible(call, wanted);
+  std::optional<std::string> next;
+  if (incidents.size() > limit) {
+    incidents.pop_back();
+    next = link_with(call, "cursor", incidents.back().id);
   }
-  if (incidents.size() <= limit) {
-    return ok(body);
+  Response response;
+  if (prefers(header(call.request, "Accept"), "text/csv", "application/json")) {
+    response = {200, "text/csv; charset=utf-8; header=present", incidents_csv(incidents)};
+  } else {
+    Json body{{"incidents", Json::array()}};
+    for (const auto& incident : incidents) body["incidents"].push_back(json(incident));
+    adapters::codecs::set(body, "next", next);
+    response = ok(body);
   }
-  const auto next = link_with(call, "cursor", incidents[limit - 1].id);
-  body["next"] = next;
-  Response response = ok(body);
-  link_next(response, next);
+  response.headers.push_back({"Vary", "Accept"});
+  if (next) link_next(response, *next);
   return response;
 }
 

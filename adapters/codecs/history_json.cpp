@@ -88,6 +88,30 @@ constexpr std::array<Named, 5> kSpreads{{{"score", &core::ScoreBucket::cost},
                                          {"motionConfirmed", &core::ScoreBucket::confirmed},
                                          {"carry", &core::ScoreBucket::carry}}};
 
+constexpr std::array kIncidentColumns{
+    "id",           "robotId",    "seq",         "kind",          "cause",          "state",
+    "openedAt",     "resolvedAt", "beforeTime",  "afterTime",     "scanTime",       "detector",
+    "score",        "threshold",  "explanation", "configVersion", "acknowledgedBy", "resolvedBy",
+    "shelvedUntil", "label",      "comment"};
+
+/// Quoted where RFC 4180 wants it. A text that a spreadsheet would take for a formula is told from
+/// one by an apostrophe, for people write comments.
+std::string text_cell(std::string text) {
+  if (!text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos) {
+    text.insert(text.begin(), '\'');
+  }
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + "\"";
+}
+
+std::string cell(const Json& row, const char* column) {
+  const auto found = row.find(column);
+  if (found == row.end()) return "";
+  return found->is_string() ? text_cell(found->get<std::string>()) : text(*found);
+}
+
 std::string spread_cells(const core::Spread& spread) {
   if (spread.count == 0) return ",,,";
   return "," + number(spread.min) + "," + number(spread.max) + "," + number(spread.mean);
@@ -221,6 +245,20 @@ std::string scores_csv(std::span<const core::Score> scores) {
     csv += "\r\n";
   }
   return csv;
+}
+
+std::string incidents_csv(std::span<const core::Incident> incidents) {
+  std::string csv;
+  for (const char* column : kIncidentColumns) csv.append(csv.empty() ? "" : ",").append(column);
+  for (const auto& incident : incidents) {
+    csv += "\r\n";
+    const Json row = json(incident);
+    for (const char* column : kIncidentColumns) {
+      if (column != kIncidentColumns.front()) csv += ",";
+      csv += cell(row, column);
+    }
+  }
+  return csv + "\r\n";
 }
 
 Json json(const core::ScoreBucket& bucket) {

@@ -37,6 +37,9 @@ void set_care(Json& object, const core::Incident& incident);
 [[nodiscard]] std::string scores_csv(std::span<const core::Score> scores);
 
 /// {min, max, mean} of each kind of score that there was.
+/// RFC 4180, with a header line: the members of json(incident); what is absent is an empty cell.
+[[nodiscard]] std::string incidents_csv(std::span<const core::Incident> incidents);
+
 [[nodiscard]] Json json(const core::ScoreBucket& bucket);
 /// As scores_csv, with columns scoreMin, scoreMax, scoreMean and so on; empty where there was none.
 [[nodiscard]] std::string score_buckets_csv(std::span<const core::ScoreBucket> buckets);

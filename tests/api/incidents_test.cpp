@@ -51,6 +51,15 @@ TEST_F(IncidentsTest, AreFilteredByAllThatIsAsked) {
   EXPECT_EQ(ids("?robot=nobody"), "");
 }
 
+TEST_F(IncidentsTest, ComeAsCsvIfWanted) {
+  const auto response = get("/api/v1/incidents?limit=2", {{"Accept", "text/csv"}});
+  EXPECT_EQ(response.content_type, "text/csv; charset=utf-8; header=present");
+  EXPECT_NE(response.body.find("\r\n0190-8,even,"), std::string::npos);
+  EXPECT_EQ(response.body.find("0190-7"), std::string::npos);
+  EXPECT_EQ(header_of(response, "Vary"), "Accept");
+  EXPECT_NE(header_of(response, "Link").find("cursor=0190-8"), std::string::npos);
+}
+
 TEST_F(IncidentsTest, AreFilteredByLabel) {
   history.all_incidents[2].label = core::IncidentLabel::false_alarm;
   EXPECT_EQ(ids("?label=false_alarm"), "7");

@@ -149,6 +149,19 @@ TEST(HistoryJson, TellsOfAChangeWhoDidWhatWhen) {
             R"("seq":2,"state":"open","comment":"a forklift"})");
 }
 
+TEST(HistoryJson, WritesIncidentsAsCsv) {
+  core::Incident incident{.id = "i1", .robot = "r1", .seq = 2, .detector = "qs2ddtw", .score = 7.5};
+  incident.comment = "a \"forklift\",\nit says";
+  incident.acknowledged_by = "=ada()";
+  const auto csv = incidents_csv(std::vector{incident});
+  EXPECT_TRUE(csv.starts_with("id,robotId,seq,kind,")) << csv;
+  EXPECT_NE(csv.find("\r\ni1,r1,2,teleport,teleport,open,1970-01-01T00:00:00.000000000Z,,"),
+            std::string::npos)
+      << csv;
+  EXPECT_TRUE(csv.ends_with(",'=ada(),,,,\"a \"\"forklift\"\",\nit says\"\r\n")) << csv;
+  EXPECT_TRUE(incidents_csv({}).ends_with("label,comment\r\n"));
+}
+
 TEST(HistoryJson, WritesScoresAsCsv) {
   auto second = score();
   second.threshold.reset();
