@@ -296,13 +296,14 @@ Response roc_of(TunedDetector detector, const std::vector<double>& false_alarms,
                 const std::vector<double>& kidnappings) {
   const auto roc = evaluation::roc(false_alarms, kidnappings);
   // An alarm is above its threshold: a little below the score that is still to be found.
-  const double threshold = std::nextafter(best(roc).threshold, 0.0);
+  const double lowest = best(roc).threshold;
+  const double threshold = std::nextafter(lowest, 0.0);
   Json body{{"detector", evaluation::name(detector)},
             {"kidnappings", kidnappings.size()},
             {"falseAlarms", false_alarms.size()},
             {"area", {{"value", roc.auc}, {"low", roc.auc_low}, {"high", roc.auc_high}}},
             {"points", points(roc)}};
-  if (std::isfinite(threshold)) {  // else nothing is better than chance
+  if (std::isfinite(lowest)) {  // else nothing is better than chance
     body["suggestion"] = {{"threshold", threshold},
                           {"found", json(share_from(kidnappings, threshold))},
                           {"falseAlarms", json(share_from(false_alarms, threshold))},

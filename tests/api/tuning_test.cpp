@@ -159,6 +159,14 @@ TEST_F(TuningTest, SuggestsAThresholdFromLabels) {
   EXPECT_GT(suggestion.at("falseAlarms").at("high"), 0.3);  // three say little
 }
 
+TEST_F(TuningTest, SuggestsNothingWhereFalseAlarmsScoreHigher) {
+  add_incident("r1", 60.0, core::IncidentLabel::kidnapping);
+  add_incident("r1", 90.0, core::IncidentLabel::false_alarm);
+  const Json found = body(get(roc + "?detector=qs2ddtw"));
+  EXPECT_EQ(found.at("area").at("value"), 0.0);
+  EXPECT_FALSE(found.contains("suggestion")) << found.dump();
+}
+
 TEST_F(TuningTest, NeedsLabelsOfBothKinds) {
   add_incident("r1", 60.0, core::IncidentLabel::kidnapping);
   EXPECT_EQ(get(roc + "?detector=qs2ddtw").status, 409);

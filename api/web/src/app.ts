@@ -94,7 +94,7 @@ function showTitle(): void {
 
 function showWho(): void {
   const caller = me();
-  fill(who, caller && hasToken() && [`${caller.name} (${caller.role}) `, button('Sign out', leave, { class: 'plain' })]);
+  fill(who, caller && hasToken() && [h('span', { class: 'who-name' }, `${caller.name} (${caller.role}) `), button('Sign out', leave, { class: 'plain' })]);
 }
 
 function leave(): void {

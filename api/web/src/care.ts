@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What people do about incidents: who may, when, and the questions it takes.
 import { ask } from './ask';
-import { count, h, words, type Child } from './dom';
+import { count, h, type Child } from './dom';
 import { at, send, type Alert, type Incident, type IncidentLabel, type Stamp } from './rest';
 import { can } from './session';
 
@@ -130,8 +130,4 @@ export function incidentOf(alert: Alert): Incident {
     beforeTime: iso(alert.beforeStamp), afterTime: iso(alert.afterStamp),
     scanTime: iso(alert.scanStamp),
   };
-}
-
-export function labelText(incident: Incident): string {
-  return incident.label ? words(incident.label) : '';
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of incidents: one of them is current, and keys move it (roving tabindex); some may be
 // selected.
-import { age, duration, h, localTime, number, setText, words } from './dom';
-import { isShelved, labelText } from './care';
+import { age, duration, fill, h, localTime, number, setText, words } from './dom';
+import { isShelved } from './care';
 import { link } from './page';
 import type { Incident } from './rest';
 import { badge } from './states';
@@ -15,6 +15,7 @@ export class Inbox {
   private readonly rows = new Map<string, HTMLLIElement>();
   private readonly chosen = new Set<string>();
   private currentId?: string;
+  private wasTouched = false; // else the newest one is current
 
   /** `onSelection` is called when something is selected or no longer. */
   constructor(private readonly onSelection: () => void, private readonly canSelect: boolean) {}
@@ -39,6 +40,8 @@ export class Inbox {
     this.incidents.clear();
     this.rows.clear();
     this.chosen.clear();
+    this.currentId = undefined;
+    this.wasTouched = false;
     this.element.replaceChildren();
     this.onSelection();
   }
@@ -48,13 +51,11 @@ export class Inbox {
     const known = this.incidents.get(incident.id);
     if (known && known.seq > incident.seq) return;
     this.incidents.set(incident.id, incident);
-    const row = this.rowOf(incident);
-    const old = this.rows.get(incident.id);
-    this.rows.set(incident.id, row);
-    if (old) replace(old, row);
-    else this.insert(row);
+    const row = this.rows.get(incident.id) ?? this.added(incident);
+    paint(row, incident);
     if (this.rows.size > MOST) this.drop(this.element.lastElementChild as HTMLLIElement);
-    if (this.currentId === undefined) this.makeCurrent(incident.id);
+    const isFirst = this.element.firstElementChild === row;
+    if (this.currentId === undefined || (isFirst && !this.wasTouched)) this.makeCurrent(incident.id);
   }
 
   /** Ids are UUIDv7: they sort by time. From the end, where pages are appended. */
@@ -92,7 +93,7 @@ export class Inbox {
   }
 
   focus(id: string): void {
-    this.makeCurrent(id);
+    this.touch(id);
     const target = this.rows.get(id)?.querySelector('a');
     target?.focus();
     target?.scrollIntoView({ block: 'nearest' });
@@ -115,6 +116,11 @@ export class Inbox {
       ago(this.incidents.get(id)!.openedAt)));
   }
 
+  private touch(id: string): void {
+    this.wasTouched = true;
+    this.makeCurrent(id);
+  }
+
   private drop(row: HTMLLIElement): void {
     const id = row.dataset['id']!;
     if (this.chosen.has(id)) this.toggle(id);
@@ -124,29 +130,35 @@ export class Inbox {
     row.remove();
   }
 
-  private rowOf(incident: Incident): HTMLLIElement {
-    const { id, robotId, state, cause, explanation, score, threshold, openedAt } = incident;
-    const isCurrent = id === this.currentId;
-    const select = this.canSelect && h('input', {
-      type: 'checkbox', 'aria-label': `Select ${robotId}, ${localTime(new Date(openedAt))}`,
-      checked: this.chosen.has(id), tabindex: isCurrent ? 0 : -1,
-      onchange: () => this.toggle(id), onfocus: () => this.makeCurrent(id),
-    });
-    return h('li', { 'data-id': id, class: `incident incident-${state}` }, select,
-      h('a', { href: link('incidents', id), tabindex: isCurrent ? 0 : -1,
-        onfocus: () => this.makeCurrent(id) },
-        h('span', { class: 'incident-state' }, badge(state),
-          isShelved(incident) && h('span', { class: 'tag' }, 'shelved')),
-        h('span', { class: 'incident-robot' }, robotId),
-        h('span', { class: 'incident-what' }, h('span', { class: 'incident-cause' }, words(cause)),
-          ' ', h('span', { class: 'muted' }, explanation)),
-        h('span', { class: 'incident-label' },
-          incident.label && h('span', { class: `tag tag-${incident.label}` }, labelText(incident)),
-          incident.comment && h('span', { class: 'incident-comment' }, incident.comment)),
-        h('span', { class: 'incident-score', title: 'Score against the threshold in force then' },
-          h('b', {}, number(score)), h('span', { class: 'muted' }, ` / ${number(threshold)}`)),
-        h('time', { datetime: openedAt, title: localTime(new Date(openedAt)) }, ago(openedAt))));
+  /** The row stays while the incident changes: so does the focus, also the one that a dialog gives back. */
+  private added({ id, robotId, openedAt }: Incident): HTMLLIElement {
+    const onfocus = () => this.touch(id);
+    const row = h('li', { 'data-id': id },
+      this.canSelect && h('input', { type: 'checkbox', tabindex: -1, onfocus,
+        'aria-label': `Select ${robotId}, ${localTime(new Date(openedAt))}`,
+        onchange: () => this.toggle(id) }),
+      h('a', { href: link('incidents', id), tabindex: -1, onfocus }));
+    this.rows.set(id, row);
+    this.insert(row);
+    return row;
   }
+}
+
+function paint(row: HTMLLIElement, incident: Incident): void {
+  const { robotId, state, cause, explanation, score, threshold, openedAt, label, comment } = incident;
+  row.className = `incident incident-${state}`;
+  fill(row.querySelector('a')!,
+    h('span', { class: 'incident-state' }, badge(state),
+      isShelved(incident) && h('span', { class: 'tag' }, 'shelved')),
+    h('span', { class: 'incident-robot' }, robotId),
+    h('span', { class: 'incident-what' }, h('span', { class: 'incident-cause' }, words(cause)),
+      ' ', h('span', { class: 'muted' }, explanation)),
+    h('span', { class: 'incident-label' },
+      label && h('span', { class: `tag tag-${label}` }, words(label)),
+      comment && h('span', { class: 'incident-comment' }, comment)),
+    h('span', { class: 'incident-score', title: 'Score against the threshold in force then' },
+      h('b', {}, number(score)), h('span', { class: 'muted' }, ` / ${number(threshold)}`)),
+    h('time', { datetime: openedAt, title: localTime(new Date(openedAt)) }, ago(openedAt)));
 }
 
 function ago(iso: string): string {
@@ -155,11 +167,4 @@ function ago(iso: string): string {
 
 function setTabbable(row: HTMLElement, is: boolean): void {
   row.querySelectorAll('a, input').forEach((one) => one.setAttribute('tabindex', is ? '0' : '-1'));
-}
-
-/** What had the focus in the old row has it in the new one. */
-function replace(old: HTMLElement, row: HTMLElement): void {
-  const focused = old.contains(document.activeElement) ? document.activeElement : null;
-  old.replaceWith(row);
-  if (focused) row.querySelector<HTMLElement>(focused.matches('input') ? 'input' : 'a')?.focus();
 }

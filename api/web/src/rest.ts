@@ -163,7 +163,7 @@ export interface Evidence {
   after: LaserScan;
   scores: Score[];
   /** The paper's path between both scans: [beam before, beam after, cost] of each step. */
-  warping?: { cost: number; steps: [number, number, number][] };
+  warping?: { cost: number; standardized: boolean; steps: [number, number, number][] };
   motion?: {
     seen: Pose;
     told?: Pose;
@@ -175,7 +175,11 @@ export interface IncidentChange {
   time: string;
   author: string;
   action: string;
-  detail?: string;
+  seq: number;
+  state: IncidentState;
+  shelvedUntil?: string;
+  label?: IncidentLabel;
+  comment?: string;
 }
 
 export interface DetectionConfig {

@@ -2,7 +2,7 @@
 // The picture of both scans with what one can ask of it, and the same in words.
 import { button, fill, h, number, setText, type Child } from '../dom';
 import type { Evidence, LaserScan } from '../rest';
-import { angle, inWords, ORIGIN, poseOf, type Laid } from './geometry';
+import { inWords, ORIGIN, poseOf, type Laid } from './geometry';
 import { COSTS, Picture } from './picture';
 
 const LAID: [Laid, string, string][] = [
@@ -63,25 +63,29 @@ function isOn(one: HTMLButtonElement): boolean {
 }
 
 function legend({ warping, motion }: Evidence): HTMLElement {
-  return h('figcaption', { class: 'legend row' },
+  return h('figcaption', { class: 'evidence-legend row' },
     h('span', { class: 'key key-before' }, 'before'),
     h('span', { class: 'key key-after' }, 'after'),
     motion && h('span', { class: 'key key-through' }, 'where the other scan saw through'),
     warping && h('span', { class: 'key-costs' }, 'matched at a cost from 0 ',
       COSTS.map((_, i) => h('i', { class: `cost cost-${i}` })), ' to ',
-      number(Math.max(...warping.steps.map(([, , cost]) => cost))), ' m'));
+      number(Math.max(...warping.steps.map(([, , cost]) => cost))), ` ${unit(warping)}`));
+}
+
+function unit({ standardized }: NonNullable<Evidence['warping']>): string {
+  return standardized ? 'σ' : 'm';
 }
 
 function beam(scan: LaserScan, index: number): string {
-  const degrees = (angle(scan, index) * 180) / Math.PI;
+  const degrees = ((scan.angle_min + index * scan.angle_increment) * 180) / Math.PI;
   return `${index} (${number(scan.ranges[index])} m at ${degrees.toFixed(0)}°)`;
 }
 
 function inStep({ before, after, warping }: Evidence, step: number): string {
   const found = warping?.steps[step];
-  if (!found) return `${warping?.steps.length ?? 0} steps`;
+  if (!warping || !found) return `${warping?.steps.length ?? 0} steps`;
   const [i, j, cost] = found;
-  return `Beam ${beam(before, i)} before matches ${beam(after, j)} after: ${number(cost)} m`;
+  return `Beam ${beam(before, i)} before matches ${beam(after, j)} after: ${number(cost)} ${unit(warping)}`;
 }
 
 function ofScan(name: string, { ranges }: LaserScan): string {

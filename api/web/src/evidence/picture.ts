@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both scans of an incident over each other, what the warping matched, and what cannot be.
 import { h } from '../dom';
+import { beamPoints, fit, robot, type Point } from '../polar';
 import type { Evidence, Pose } from '../rest';
 import { colour, onTheme } from '../theme';
-import { placed, points, type Point } from './geometry';
 
 export interface Shown {
   evidence: Evidence;
@@ -18,6 +18,7 @@ export interface Shown {
 /** Dear steps are drawn last, over the cheap ones. */
 export const COSTS = ['--cost-0', '--cost-1', '--cost-2', '--cost-3', '--cost-4'];
 const MARGIN = 0.06;
+const ORIGIN: Point = [0, 0];
 
 /** Which of the five colours. */
 export function costClass(cost: number, dearest: number): number {
@@ -49,24 +50,23 @@ export class Picture {
   private draw(): void {
     if (!this.shown || this.element.clientWidth === 0) return;
     const [width, height] = [this.element.clientWidth, this.element.clientHeight];
-    const ratio = devicePixelRatio || 1;
-    this.element.width = Math.round(width * ratio);
-    this.element.height = Math.round(height * ratio);
     const context = this.element.getContext('2d')!;
-    context.scale(ratio, ratio);
+    fit(this.element, context, width, height);
     drawAll(context, width, height, this.shown);
   }
 }
 
-type ToScreen = (point: Point) => [number, number];
+type ToScreen = (point: Point) => Point;
+type Beams = (Point | null)[];
 
 function drawAll(context: CanvasRenderingContext2D, width: number, height: number, shown: Shown): void {
   const { evidence, pose } = shown;
-  const before = points(evidence.before);
-  const after = points(evidence.after).map((one) => one && placed(one, pose));
-  const all = [...before, ...after, { x: 0, y: 0 }, pose].filter((one): one is Point => Boolean(one));
+  const before = beamPoints(evidence.before);
+  const after = beamPoints(evidence.after, pose);
+  const here: Point = [pose.x, pose.y];
+  const all = [...before, ...after, ORIGIN, here].filter((one): one is Point => one !== null);
   const { to, scale } = fitted(all, width, height);
-  rings(context, to, scale, Math.max(...all.map(({ x, y }) => Math.hypot(x, y))));
+  rings(context, to, scale, Math.max(...all.map(([x, y]) => Math.hypot(x, y))));
   if (shown.warping) warping(context, to, evidence, before, after);
   dots(context, to, before, '--before', 2);
   dots(context, to, after, '--after', 2);
@@ -74,21 +74,21 @@ function drawAll(context: CanvasRenderingContext2D, width: number, height: numbe
     violations(context, to, pick(before, evidence.motion?.violating.before));
     violations(context, to, pick(after, evidence.motion?.violating.after));
   }
-  robot(context, to, { x: 0, y: 0, theta: 0 }, '--before');
-  robot(context, to, pose, '--after');
+  robot(context, to(ORIGIN), 0, colour('--before'));
+  robot(context, to(here), pose.theta, colour('--after'));
   if (shown.step !== undefined) pointAt(context, to, evidence, before, after, shown.step);
   scaleBar(context, width, height, scale);
 }
 
 /** The robot before is looking up: x is up, y to the left. */
 function fitted(all: Point[], width: number, height: number): { to: ToScreen; scale: number } {
-  const [xs, ys] = [all.map(({ x }) => x), all.map(({ y }) => y)];
+  const [xs, ys] = [all.map(([x]) => x), all.map(([, y]) => y)];
   const [top, bottom] = [Math.max(...xs), Math.min(...xs)];
   const [left, right] = [Math.max(...ys), Math.min(...ys)];
   const room = 1 - 2 * MARGIN;
   const scale = Math.min((room * width) / (left - right || 1), (room * height) / (top - bottom || 1));
   const [cx, cy] = [(left + right) / 2, (top + bottom) / 2];
-  return { scale, to: ({ x, y }) => [width / 2 - (y - cx) * scale, height / 2 - (x - cy) * scale] };
+  return { scale, to: ([x, y]) => [width / 2 - (y - cx) * scale, height / 2 - (x - cy) * scale] };
 }
 
 function ringStep_m(scale: number): number {
@@ -96,7 +96,7 @@ function ringStep_m(scale: number): number {
 }
 
 function rings(context: CanvasRenderingContext2D, to: ToScreen, scale: number, farthest_m: number): void {
-  const [x, y] = to({ x: 0, y: 0 });
+  const [x, y] = to(ORIGIN);
   const step_m = ringStep_m(scale);
   context.strokeStyle = colour('--line');
   context.lineWidth = 1;
@@ -107,7 +107,7 @@ function rings(context: CanvasRenderingContext2D, to: ToScreen, scale: number, f
   }
 }
 
-function dots(context: CanvasRenderingContext2D, to: ToScreen, all: (Point | undefined)[], name: string,
+function dots(context: CanvasRenderingContext2D, to: ToScreen, all: Beams, name: string,
   radius: number): void {
   context.fillStyle = colour(name);
   context.beginPath();
@@ -121,7 +121,7 @@ function dots(context: CanvasRenderingContext2D, to: ToScreen, all: (Point | und
 }
 
 function warping(context: CanvasRenderingContext2D, to: ToScreen, { warping: path }: Evidence,
-  before: (Point | undefined)[], after: (Point | undefined)[]): void {
+  before: Beams, after: Beams): void {
   if (!path) return;
   const dearest = Math.max(...path.steps.map(([, , cost]) => cost));
   COSTS.forEach((name, wanted) => {
@@ -138,12 +138,12 @@ function warping(context: CanvasRenderingContext2D, to: ToScreen, { warping: pat
   });
 }
 
-function pick(all: (Point | undefined)[], beams: number[] = []): (Point | undefined)[] {
-  return beams.map((beam) => all[beam]);
+function pick(all: Beams, beams: number[] = []): Beams {
+  return beams.map((beam) => all[beam] ?? null);
 }
 
 /** Rings around the points, so that they differ by more than their colour. */
-function violations(context: CanvasRenderingContext2D, to: ToScreen, all: (Point | undefined)[]): void {
+function violations(context: CanvasRenderingContext2D, to: ToScreen, all: Beams): void {
   context.strokeStyle = colour('--kidnapped');
   context.lineWidth = 1.5;
   context.beginPath();
@@ -156,27 +156,8 @@ function violations(context: CanvasRenderingContext2D, to: ToScreen, all: (Point
   context.stroke();
 }
 
-function robot(context: CanvasRenderingContext2D, to: ToScreen, pose: Pose, name: string): void {
-  const [x, y] = to(pose);
-  context.save();
-  context.translate(x, y);
-  context.rotate(-pose.theta);
-  context.beginPath();
-  context.moveTo(0, -11);
-  context.lineTo(7, 8);
-  context.lineTo(0, 4);
-  context.lineTo(-7, 8);
-  context.closePath();
-  context.fillStyle = colour(name);
-  context.strokeStyle = colour('--surface');
-  context.lineWidth = 3;
-  context.stroke();
-  context.fill();
-  context.restore();
-}
-
 function pointAt(context: CanvasRenderingContext2D, to: ToScreen, { warping: path }: Evidence,
-  before: (Point | undefined)[], after: (Point | undefined)[], step: number): void {
+  before: Beams, after: Beams, step: number): void {
   const found = path?.steps[step];
   const [from, onto] = [found && before[found[0]], found && after[found[1]]];
   if (!from || !onto) return;

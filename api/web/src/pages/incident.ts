@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One incident: what happened, what it was concluded from, and who did what.
 import { tell } from '../ask';
-import { ACTIONS, incidentOf, isShelved, labelText, mayCare, perform, type Action } from '../care';
-import { button, fill, h, number, timeElement, words, type Child } from '../dom';
+import { ACTIONS, incidentOf, isShelved, mayCare, perform, type Action } from '../care';
+import { button, fill, h, localTime, number, timeElement, words, type Child } from '../dom';
 import { movement, scanFigure } from '../evidence/figure';
 import { scorePlots } from '../evidence/scores';
 import * as keys from '../keys';
@@ -12,6 +12,7 @@ import { at, get, Problem, type Evidence, type Incident, type IncidentChange } f
 import { Said } from '../said';
 import { badge, empty, failed, isAbort, loading, sentence } from '../states';
 
+const SERVICE = 'kidnapwatch'; // the author of what nobody did
 const DETECTORS: Record<string, string> = { motion_consistency: 'Motion consistency', qs2ddtw: 'QS-2DDTW' };
 
 export const incident: Page = (root, { id = '' }) => {
@@ -61,9 +62,7 @@ export const incident: Page = (root, { id = '' }) => {
   async function loadTimeline(): Promise<void> {
     try {
       const { history } = await get<{ history: IncidentChange[] }>(path('history'), signal);
-      fill(timeline, history.map(({ time, author, action, detail }) => h('li', {},
-        timeElement(time), ' ', h('b', {}, author || 'rule'), ` ${words(action)}`,
-        detail && h('span', { class: 'detail' }, detail))));
+      fill(timeline, history.map((change, i) => entry(change, history[i - 1])));
     } catch (error) {
       if (!isAbort(error)) fill(timeline, h('li', {}, sentence(error)));
     }
@@ -97,6 +96,10 @@ export const incident: Page = (root, { id = '' }) => {
       void loadTimeline();
     } catch (error) {
       said.say(sentence(error));
+    }
+    // The button that a dialog would give the focus back to may have gone with the state.
+    if (document.activeElement === document.body) {
+      actions.querySelector<HTMLElement>(`[data-action=${action.name}], button`)?.focus();
     }
   }
 
@@ -138,12 +141,25 @@ function gone(): HTMLElement {
     'this token does not show.');
 }
 
+/** What is other than before; the alert of a label is an update. */
+function entry(change: IncidentChange, before?: IncidentChange): HTMLElement {
+  const { time, author, action, shelvedUntil, label, comment } = change;
+  const isLabelled = label !== undefined && label !== before?.label;
+  const isCommented = comment !== undefined && comment !== before?.comment;
+  const did = isLabelled ? ['labelled it ', words(label)]
+    : action === 'shelved' && shelvedUntil ? ['shelved it until ', timeElement(shelvedUntil)]
+      : action === 'updated' ? (isCommented ? 'commented' : author === SERVICE ? 'saw it jump again' : 'updated it')
+        : `${words(action)} it`;
+  return h('li', {}, timeElement(time), ' ', h('b', {}, author), ' ', did,
+    isCommented && h('span', { class: 'detail' }, comment));
+}
+
 function heading(incident: Incident): Child {
   const { robotId, explanation, state, openedAt, cause } = incident;
   return [
     h('div', { class: 'head' }, badge(state),
       isShelved(incident) && h('span', { class: 'tag' }, 'shelved'),
-      incident.label && h('span', { class: `tag tag-${incident.label}` }, labelText(incident)),
+      incident.label && h('span', { class: `tag tag-${incident.label}` }, words(incident.label)),
       h('span', { class: 'muted' }, words(cause), ', ', timeElement(openedAt))),
     h('h1', { class: 'headline' }, robotId, ': ', explanation),
     h('p', { class: 'what' }, whatHappened(incident)),
@@ -166,9 +182,9 @@ function factList(incident: Incident, evidence?: Evidence): HTMLElement {
   return h('dl', { class: 'facts' },
     h('dt', {}, 'Robot'), h('dd', {}, h('a', { href: link('robots', robotId) }, robotId)),
     evidence && movement(evidence),
-    h('dt', {}, 'Scan before'), h('dd', {}, timeElement(beforeTime)),
-    h('dt', {}, 'Scan after'), h('dd', {}, timeElement(afterTime)),
-    h('dt', {}, 'Confirmed by'), h('dd', {}, timeElement(scanTime)),
+    h('dt', {}, 'Scan before'), h('dd', {}, exact(beforeTime)),
+    h('dt', {}, 'Scan after'), h('dd', {}, exact(afterTime)),
+    h('dt', {}, 'Confirmed by'), h('dd', {}, exact(scanTime)),
     resolvedAt && [h('dt', {}, 'Resolved'), h('dd', {}, timeElement(resolvedAt),
       ` by ${incident.resolvedBy ?? 'rule: its scans fitted together again'}`)],
     incident.acknowledgedBy && [h('dt', {}, 'Looked after by'), h('dd', {}, incident.acknowledgedBy)],
@@ -177,6 +193,12 @@ function factList(incident: Incident, evidence?: Evidence): HTMLElement {
     h('dd', {}, h('a', { href: link('tuning', undefined, { robot: robotId }) },
       configVersion === 0 ? 'as delivered' : `version ${configVersion}`)),
     h('dt', {}, 'Id'), h('dd', {}, h('code', {}, incident.id)));
+}
+
+/** To the millisecond: scans are that near. */
+function exact(iso: string): HTMLElement {
+  return h('time', { datetime: iso, title: iso },
+    `${localTime(new Date(iso))}.${iso.slice(20, 23)}`);
 }
 
 /** A plain http:// page has no clipboard: there the address is shown, to be copied. */

@@ -94,7 +94,10 @@ export const incidents: Page = (root, { query }) => {
     form, bulk, inbox.element, state, more, said.element);
   bulk.hidden = true;
 
-  const bindings = keysFor(inbox, care, () => form.querySelector<HTMLElement>('input')?.focus());
+  const bindings = keysFor(inbox, care, () => {
+    form.querySelector('details')!.open = true;
+    form.querySelector('input')!.select();
+  });
   const stopKeys = keys.listen(bindings);
   const stopAlerts = onAlert((alert) => {
     const incident = incidentOf(alert);
@@ -179,20 +182,21 @@ function filterForm(filter: Filter, robots: Set<string>, changed: () => void): H
   const between = h('span', { class: 'row', hidden: filter.time !== 'custom' },
     h('label', {}, h('span', {}, 'From'), input('from', { type: 'datetime-local' })),
     h('label', {}, h('span', {}, 'to'), input('to', { type: 'datetime-local' })));
-  return h('form', { class: 'filters', role: 'search', 'aria-label': 'Filter incidents',
+  const robot = input('robot', { type: 'search', list: 'robots', placeholder: 'Any',
+    spellcheck: 'false', autocomplete: 'off', autocapitalize: 'none', onkeydown: leaveByEscape,
+    onfocus: () => fill(known, [...robots].slice(0, MOST_NAMED).map((id) =>
+      h('option', { value: id }))) });
+  const selects = CHOICES.map(([name, label, options]) => h('label', {}, h('span', {}, label),
+    h('select', { name, onchange: (event: Event) =>
+      set(name, (event.target as HTMLSelectElement).value) },
+    options.map(([value, text]) => h('option', { value, selected: value === filter[name] }, text)))));
+  const isWide = matchMedia('(min-width: 40rem)').matches; // on a phone it would be in the way
+  return h('form', { role: 'search', 'aria-label': 'Filter incidents',
     onsubmit: (event: Event) => event.preventDefault() },
-    h('label', {}, h('span', {}, 'Robot'), input('robot', { type: 'search', list: 'robots',
-      placeholder: 'Any', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'none',
-      onfocus: () => fill(known, [...robots].slice(0, MOST_NAMED).map((id) =>
-        h('option', { value: id }))),
-      onkeydown: leaveByEscape })),
-    known,
-    CHOICES.map(([name, label, options]) => h('label', {}, h('span', {}, label),
-      h('select', { name, onchange: (event: Event) =>
-        set(name, (event.target as HTMLSelectElement).value) },
-        options.map(([value, text]) =>
-          h('option', { value, selected: value === filter[name] }, text))))),
-    between);
+  h('details', { class: 'filter-box', open: isWide || !isEmpty(filter) },
+    h('summary', {}, 'Filter'),
+    h('div', { class: 'filters' }, h('label', {}, h('span', {}, 'Robot'), robot), known, selects,
+      between)));
 }
 
 function leaveByEscape(event: KeyboardEvent): void {

@@ -9,7 +9,7 @@ import { can } from '../session';
 import { failed, isAbort, loading, sentence } from '../states';
 import { calibrate } from '../tuning/calibrate';
 import { effect, spoken } from '../tuning/effect';
-import { showRoc } from '../tuning/roc';
+import { showRoc, tooLittle } from '../tuning/roc';
 import { configPath, save } from '../tuning/save';
 import { Strip } from '../tuning/strip';
 import { configured, DETECTORS, Scale } from '../tuning/threshold';
@@ -50,7 +50,7 @@ export const tuning: Page = (root, { query }) => {
     onchange: () => { if (Number(exact.value) > 0) move(Number(exact.value)); } });
   const outcome = h('div', { class: 'outcome', 'aria-busy': 'false' });
   const said = new Said();
-  const heard = h('p', { class: 'only-read', role: 'status' });
+  const heard = h('p', { class: 'visually-hidden', role: 'status' });
   const saving = h('div', {});
   const roc = h('div', {});
   const versions = new Versions((text) => { said.say(text); void load(); });
@@ -75,7 +75,10 @@ export const tuning: Page = (root, { query }) => {
       loaded = { level, incidents, robots,
         scale: Scale.around([...incidents.map(({ score }) => score), now, threshold]) };
       show();
-      void showRoc(roc, chosen.detector, chosen.robot, signal, can('operator') ? move : undefined);
+      const labels = new Set(incidents.map(({ label }) => label));
+      const isLabelled = labels.has('kidnapping') && labels.has('false_alarm');
+      if (!isLabelled && all.length < MOST_INCIDENTS) fill(roc, tooLittle());
+      else void showRoc(roc, { ...scope(), signal, use: can('operator') ? move : undefined });
       void versions.load(chosen.robot, signal);
     } catch (error) {
       if (!isAbort(error)) fill(body, failed(error, () => void load()));
@@ -94,7 +97,7 @@ export const tuning: Page = (root, { query }) => {
       h('section', { class: 'card' }, h('h2', {}, 'Threshold'), says, strip.element,
         can('operator') ? h('div', { class: 'threshold row' },
           h('label', { for: 'threshold' }, 'Try'), slider, exact,
-          h('label', { for: 'exact', class: 'only-read' }, 'Exactly'))
+          h('label', { for: 'exact', class: 'visually-hidden' }, 'Exactly'))
           : h('p', { class: 'hint' }, 'To try out others takes the role operator.'),
         outcome),
       h('div', { class: 'tuning-columns' },

@@ -8,12 +8,18 @@ import { empty, failed, isAbort, loading } from '../states';
 const SIZE = 240;
 const PAD = 34;
 
-/** `use`, where there is one, is told the suggested threshold. */
-export async function showRoc(root: HTMLElement, detector: Detector, robot: string,
-  signal: AbortSignal, use?: (threshold: number) => void): Promise<void> {
+export interface RocOf {
+  detector: Detector;
+  robot?: string;
+  from?: string;
+  signal: AbortSignal;
+  /** Is told the suggested threshold. */
+  use?: (threshold: number) => void;
+}
+
+export async function showRoc(root: HTMLElement, { signal, use, ...query }: RocOf): Promise<void> {
   fill(root, loading());
   try {
-    const query = { detector, robot: robot || undefined };
     const roc = await get<LabelledRoc>(at('/api/v1/evaluation/roc', query), signal);
     fill(root, h('div', { class: 'roc' }, curve(roc), figures(roc, use)));
   } catch (error) {
@@ -23,7 +29,8 @@ export async function showRoc(root: HTMLElement, detector: Detector, robot: stri
   }
 }
 
-function tooLittle(): HTMLElement {
+/** Known before it is asked for. */
+export function tooLittle(): HTMLElement {
   return empty('Not enough labels yet.', 'Label some ',
     h('a', { href: link('incidents') }, 'incidents'),
     ' kidnapping and some false alarm: then this shows how well their scores tell them apart.');
