@@ -115,6 +115,28 @@ TEST_F(ServerTls, TakesABodyAndSaysGoodbye) {
   EXPECT_TRUE(reply.ends_with("PUT / " + std::string(40'000, 'x')));
 }
 
+/// One, two, three, and the end.
+class Countdown final : public Feed {
+ public:
+  std::optional<std::string> next() override {
+    return count_ == 3 ? std::nullopt : std::optional(std::to_string(++count_) + " ");
+  }
+
+ private:
+  int count_ = 0;
+};
+
+TEST_F(ServerTls, SendsAFeedToItsEnd) {
+  const Server server(config(), [](const Request&) {
+    Response response{200, "text/event-stream", ""};
+    response.feed = std::make_shared<Countdown>();
+    return response;
+  });
+  TlsClient client(server.port());
+  client.send("GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_TRUE(client.read_to_end().ends_with("\r\n\r\n1 2 3 "));
+}
+
 TEST_F(ServerTls, SpeaksNothingOlderThanTls12) {
   const Server server(config(), echo);
   EXPECT_NO_THROW(TlsClient(server.port(), TLS1_2_VERSION));
