@@ -145,13 +145,13 @@ function pick(all: Beams, beams: number[] = []): Beams {
 /** Rings around the points, so that they differ by more than their colour. */
 function violations(context: CanvasRenderingContext2D, to: ToScreen, all: Beams): void {
   context.strokeStyle = colour('--kidnapped');
-  context.lineWidth = 1.5;
+  context.lineWidth = 1.2;
   context.beginPath();
   for (const one of all) {
     if (!one) continue;
     const [x, y] = to(one);
-    context.moveTo(x + 4.5, y);
-    context.arc(x, y, 4.5, 0, 2 * Math.PI);
+    context.moveTo(x + 3.5, y);
+    context.arc(x, y, 3.5, 0, 2 * Math.PI);
   }
   context.stroke();
 }

@@ -54,6 +54,7 @@ export function scorePlots(root: HTMLElement, { scores }: Evidence, incident: In
   const jump_ms = Date.parse(incident.afterTime);
   const seconds = scores.map(({ time }) => (Date.parse(time) - jump_ms) / 1000);
   const sync = uPlot.sync(`incident-${incident.id}`);
+  root.replaceChildren();
   const panels = traces(scores).map((trace) => {
     const value = h('span', { class: 'muted' });
     const box = h('div', { role: 'img', 'aria-label': inWords(trace, scores, incident) });

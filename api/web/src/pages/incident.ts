@@ -29,12 +29,13 @@ export const incident: Page = (root, { id = '' }) => {
   const plots = h('div', { class: 'score-plots' });
   let now: Incident | undefined;
   let evidence: Evidence | undefined;
+  let stopEvidence: () => void = () => undefined;
 
   async function load(): Promise<void> {
     fill(root, loading('Loading the incident'));
     try {
       show(await get<Incident>(path(), signal));
-      fill(root, crumbs(), head, actions, said.element, h('div', { class: 'incident-columns' },
+      fill(root, head, actions, said.element, h('div', { class: 'incident-columns' },
         h('section', { class: 'card' }, h('h2', {}, 'Both scans'), picture),
         h('section', { class: 'card' }, h('h2', {}, 'Facts'), facts,
           h('h2', {}, 'Who did what'), timeline)),
@@ -55,7 +56,9 @@ export const incident: Page = (root, { id = '' }) => {
         ? empty('Its scans are kept no longer.') : failed(error, () => void loadEvidence()));
       return;
     }
-    stops.push(scanFigure(picture, evidence), scorePlots(plots, evidence, now!));
+    stopEvidence();
+    const ends = [scanFigure(picture, evidence), scorePlots(plots, evidence, now!)];
+    stopEvidence = () => ends.forEach((end) => end());
     show(now!);
   }
 
@@ -116,7 +119,9 @@ export const incident: Page = (root, { id = '' }) => {
 
   stops.push(onAlert((alert) => {
     if (alert.incidentId !== id || !now) return;
+    const { afterTime } = now;
     show(incidentOf(alert));
+    if (now.afterTime !== afterTime) void loadEvidence(); // it jumped again
     void loadTimeline();
   }));
   stops.push(keys.listen([
@@ -128,12 +133,13 @@ export const incident: Page = (root, { id = '' }) => {
   return () => {
     stopping.abort();
     said.stop();
+    stopEvidence();
     stops.forEach((stop) => stop());
   };
 };
 
 function crumbs(): HTMLElement {
-  return h('p', { class: 'crumbs' }, h('a', { href: link('incidents') }, '‹ Incidents'));
+  return h('span', { class: 'crumbs' }, h('a', { href: link('incidents') }, '‹ Incidents'));
 }
 
 function gone(): HTMLElement {
@@ -157,7 +163,7 @@ function entry(change: IncidentChange, before?: IncidentChange): HTMLElement {
 function heading(incident: Incident): Child {
   const { robotId, explanation, state, openedAt, cause } = incident;
   return [
-    h('div', { class: 'head' }, badge(state),
+    h('div', { class: 'head' }, crumbs(), badge(state),
       isShelved(incident) && h('span', { class: 'tag' }, 'shelved'),
       incident.label && h('span', { class: `tag tag-${incident.label}` }, words(incident.label)),
       h('span', { class: 'muted' }, words(cause), ', ', timeElement(openedAt))),
