@@ -195,7 +195,7 @@ function filterForm(filter: Filter, robots: Set<string>, changed: () => void): H
     onsubmit: (event: Event) => event.preventDefault() },
   h('details', { class: 'filter-box', open: isWide || !isEmpty(filter) },
     h('summary', {}, 'Filter'),
-    h('div', { class: 'filters' }, h('label', {}, h('span', {}, 'Robot'), robot), known, selects,
+    h('div', { class: 'choosers' }, h('label', {}, h('span', {}, 'Robot'), robot), known, selects,
       between)));
 }
 

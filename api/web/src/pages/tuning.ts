@@ -159,7 +159,7 @@ export const tuning: Page = (root, { query }) => {
     outcome.setAttribute('aria-busy', 'false');
   }
 
-  const scopes = h('form', { class: 'filters', 'aria-label': 'What is tuned',
+  const scopes = h('form', { class: 'choosers', 'aria-label': 'What is tuned',
     onsubmit: (event: Event) => event.preventDefault() });
   root.append(h('div', { class: 'head' }, h('h1', {}, 'Tuning')), scopes, body, heard, said.element);
   void load();
