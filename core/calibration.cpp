@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace kidnapwatch::core {
@@ -26,7 +27,8 @@ double exponential_tail_threshold(std::span<const double> scores, double false_a
     excess += sorted[i] - q95;
   }
   const auto above = static_cast<double>(std::max<std::size_t>(1, sorted.size() - rank - 1));
-  return q95 + excess / above * std::log(kTail / false_alarm_rate);
+  const double rate = std::max(false_alarm_rate, std::numeric_limits<double>::min());
+  return q95 + excess / above * std::log(kTail / rate);  // finite, whatever the rate
 }
 
 void Calibration::learn(double score) {

@@ -121,6 +121,15 @@ TEST_F(TuningTest, CalibratesToARate) {
             409);  // too few scores
 }
 
+TEST_F(TuningTest, CalibratesToTheLeastRateThereIs) {
+  std::vector<double> costs(500, 10.0);
+  costs.back() = 20.0;
+  drive("r1", costs);
+  const auto response = post(calibrate, R"({"detector":"qs2ddtw","falseAlarmRate":1e-320})");
+  EXPECT_EQ(response.status, 200);
+  EXPECT_TRUE(body(response).at("threshold").is_number()) << response.body;
+}
+
 TEST_F(TuningTest, CalibratesMotionByItsConfirmedScores) {
   drive("r1", std::vector<double>(200, 1.0));
   for (std::size_t i = 0; i < history.all_scores.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -51,6 +52,11 @@ TEST(ExponentialTailThreshold, IsTheQuantileOfExponentialScores) {
     EXPECT_NEAR(exponential_tail_threshold(scores, rate), -2.0 * std::log(rate),
                 -0.1 * std::log(rate));
   }
+}
+
+TEST(ExponentialTailThreshold, IsFiniteForTheLeastRateThereIs) {
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_TRUE(std::isfinite(exponential_tail_threshold(one_to(100), least)));
 }
 
 TEST(ExponentialTailThreshold, IsTheScoreWhereAllAreEqual) {
