@@ -117,7 +117,8 @@ class History {
   /// By stamp, oldest first, at most `limit`.
   [[nodiscard]] virtual std::vector<core::Score> scores(const std::string& robot, TimeRange stamps,
                                                         std::size_t limit) const = 0;
-  /// The same scores in buckets, oldest first, at most `limit` of them; see core::ScoreBuckets.
+  /// The same scores in buckets, oldest first, at most `limit` of them; wider ones than asked for
+  /// where single scores are gone, or where `resolution` does not fit into minutes and hours.
   [[nodiscard]] virtual std::vector<core::ScoreBucket> score_buckets(
       const std::string& robot, TimeRange stamps, std::chrono::seconds resolution,
       std::size_t limit) const = 0;

@@ -2,6 +2,7 @@
 // Robots from the running fleet; scores from its history.
 #include "api/robots.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <utility>
@@ -35,6 +36,15 @@ std::optional<std::chrono::seconds> resolution(const Call& call) {
 core::Stamp begin(const core::Score& score) { return score.stamp; }
 core::Stamp begin(const core::ScoreBucket& bucket) { return bucket.from; }
 
+/// Of the widest bucket.
+std::optional<std::chrono::seconds> resolution_of(const std::vector<core::ScoreBucket>& buckets) {
+  const auto widest = std::ranges::max_element(buckets, {}, &core::ScoreBucket::width);
+  return widest == buckets.end() ? std::nullopt : std::optional(widest->width);
+}
+std::optional<std::chrono::seconds> resolution_of(const std::vector<core::Score>& /*all*/) {
+  return std::nullopt;
+}
+
 std::string csv(const std::vector<core::Score>& scores) {
   return adapters::codecs::scores_csv(scores);
 }
@@ -51,11 +61,13 @@ Response page(const Call& call, const char* name, std::vector<Item> items, std::
     items.erase(items.begin() + static_cast<std::ptrdiff_t>(limit), items.end());
   }
   Response response;
+  const auto widest = resolution_of(items);
   if (prefers(header(call.request, "Accept"), "text/csv", "application/json")) {
     response = {200, "text/csv; charset=utf-8; header=present", csv(items)};
   } else {
     Json body{{name, Json::array()}};
     for (const auto& item : items) body[name].push_back(json(item));
+    if (widest) body["resolution"] = widest->count();
     adapters::codecs::set(body, "next", next);
     response = ok(body);
   }

@@ -53,6 +53,14 @@ api::RateLimitConfig rate_limit(const Settings& settings) {
   return {.per_s = per_s, .burst = 2.0 * per_s};
 }
 
+storage::RetentionConfig retention(const Settings& settings) {
+  return {.keep_scores = std::chrono::days(settings.store_keep_scores_days),
+          .keep_minutes = std::chrono::days(settings.store_keep_minutes_days),
+          .keep_hours = std::chrono::days(settings.store_keep_hours_days),
+          .keep_incidents = std::chrono::days(settings.store_keep_incidents_days),
+          .max_bytes = std::uint64_t{1'000'000} * settings.store_max_mb};
+}
+
 core::Stamp uptime() { return core::Stamp(std::chrono::steady_clock::now().time_since_epoch()); }
 
 std::uint64_t random_seed() {
@@ -137,7 +145,8 @@ class Service::Parts final : public api::Fleet {
 Service::Parts::Parts(const Settings& settings)
     : settings_(settings),
       writer_({.file = settings.store_file,
-               .commit_every = std::chrono::milliseconds(settings.store_commit_every_ms)}),
+               .commit_every = std::chrono::milliseconds(settings.store_commit_every_ms),
+               .retention = retention(settings)}),
       archive_(settings.store_file, writer_.recent()),
       link_(link_config(), link_events()),
       outbox_(outbox_ways()),

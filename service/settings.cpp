@@ -122,6 +122,8 @@ Setting detection() {
           [](const Settings& settings) { return codecs::text(codecs::json(settings.detection)); }};
 }
 
+constexpr std::size_t kMaxDays = 36'500;
+
 std::vector<Setting> table() {
   using S = Settings;
   return {
@@ -151,6 +153,16 @@ std::vector<Setting> table() {
       setting("store.file", &S::store_file, "the database"),
       bounded("store.commit_every_ms", &S::store_commit_every_ms, 1, 10'000,
               "scores are made durable this often"),
+      bounded("store.keep_scores_days", &S::store_keep_scores_days, 1, kMaxDays,
+              "every score; those around an incident stay as long as it"),
+      bounded("store.keep_minutes_days", &S::store_keep_minutes_days, 1, kMaxDays,
+              "least, most and mean of every minute; not less than scores"),
+      bounded("store.keep_hours_days", &S::store_keep_hours_days, 1, kMaxDays,
+              "and of every hour; not less than minutes"),
+      bounded("store.keep_incidents_days", &S::store_keep_incidents_days, 1, kMaxDays,
+              "resolved ones, with both scans; not less than scores"),
+      bounded("store.max_mb", &S::store_max_mb, 100, 10'000'000,
+              "size of the database; from 7/8 of it on the oldest scores go, then rollups"),
       bounded("service.lanes", &S::service_lanes, 1, 256, "threads that score"),
       bounded("service.queue_per_robot", &S::service_queue_per_robot, 1, 100'000,
               "scans of one robot that may wait; beyond, its oldest is dropped"),
@@ -280,6 +292,20 @@ void take_environment(LoadedSettings& loaded, const Sources& sources) {
   }
 }
 
+/// What is coarser is kept at least as long as what is finer.
+void check_retention(const Settings& settings) {
+  const auto not_less = [](const std::string& key, std::size_t days, const std::string& than,
+                           std::size_t least) {
+    if (days < least) throw BadInput(key, "must not be less than " + than);
+  };
+  not_less("store.keep_minutes_days", settings.store_keep_minutes_days, "store.keep_scores_days",
+           settings.store_keep_scores_days);
+  not_less("store.keep_hours_days", settings.store_keep_hours_days, "store.keep_minutes_days",
+           settings.store_keep_minutes_days);
+  not_less("store.keep_incidents_days", settings.store_keep_incidents_days,
+           "store.keep_scores_days", settings.store_keep_scores_days);
+}
+
 void take_flags(LoadedSettings& loaded, const Sources& sources) {
   for (const auto& [key, text] : sources.flags) {
     take(loaded, *find(key), text, "flag --" + key);
@@ -316,6 +342,7 @@ LoadedSettings load_settings(const Sources& sources) {
   }
   take_environment(loaded, sources);
   take_flags(loaded, sources);
+  check_retention(loaded.settings);
   return loaded;
 }
 

@@ -39,6 +39,11 @@ struct Settings {
 
   std::string store_file = "/var/lib/kidnapwatch/kidnapwatch.db";
   std::size_t store_commit_every_ms = 50;
+  std::size_t store_keep_scores_days = 30;
+  std::size_t store_keep_minutes_days = 60;
+  std::size_t store_keep_hours_days = 730;
+  std::size_t store_keep_incidents_days = 365;
+  std::size_t store_max_mb = 8000;
 
   std::size_t service_lanes = 2;
   std::size_t service_queue_per_robot = 64;

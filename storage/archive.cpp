@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "storage/audit.hpp"
+#include "storage/buckets.hpp"
 #include "storage/rows.hpp"
 #include "storage/scores.hpp"
 #include "storage/segments.hpp"
@@ -135,9 +136,7 @@ std::vector<core::ScoreBucket> Archive::score_buckets(const std::string& robot, 
                                                       std::chrono::seconds resolution,
                                                       std::size_t limit) const {
   const Lease lease(*this);
-  core::ScoreBuckets buckets(resolution, limit);
-  add_scores(lease, *recent(lease), robot, from, to, buckets);
-  return buckets.all();
+  return storage::score_buckets(lease, *recent(lease), robot, from, to, resolution, limit);
 }
 
 std::vector<core::Incident> Archive::incidents(const IncidentFilter& filter) const {

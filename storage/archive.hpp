@@ -33,7 +33,8 @@ class Archive {
   [[nodiscard]] std::vector<core::Score> scores(const std::string& robot, core::Stamp from,
                                                 core::Stamp to, std::size_t limit) const;
 
-  /// The same scores in buckets, oldest first, at most `limit` of them; see core::ScoreBuckets.
+  /// The same scores in buckets, oldest first, at most `limit` of them, and scores that are gone;
+  /// see storage/buckets.hpp.
   [[nodiscard]] std::vector<core::ScoreBucket> score_buckets(const std::string& robot,
                                                              core::Stamp from, core::Stamp to,
                                                              std::chrono::seconds resolution,

@@ -45,6 +45,19 @@ CREATE TABLE block (
 CREATE INDEX block_of_robot ON block (robot, first_stamp, last_stamp);
 CREATE INDEX block_by_arrival ON block (arrival);
 
+-- Scores of one robot, summed up in buckets of `width` seconds; see storage/rollup.hpp.
+CREATE TABLE rollup (
+  id INTEGER PRIMARY KEY, robot INTEGER NOT NULL, width INTEGER NOT NULL, begin INTEGER NOT NULL,
+  arrival INTEGER NOT NULL, data BLOB NOT NULL) STRICT;
+CREATE INDEX rollup_of_robot ON rollup (robot, width, begin);
+CREATE INDEX rollup_by_arrival ON rollup (width, arrival);
+
+-- The last segment of which the robot's scores are packed, and of those: minutes that are in no
+-- rollup yet, and hours that are not, but their minutes.
+CREATE TABLE rollup_open (
+  robot INTEGER PRIMARY KEY, segment INTEGER NOT NULL, minutes BLOB NOT NULL,
+  hours BLOB NOT NULL) STRICT;
+
 CREATE TABLE incident (
   id TEXT PRIMARY KEY, robot TEXT NOT NULL, seq INTEGER NOT NULL, kind TEXT NOT NULL,
   state TEXT NOT NULL, opened_at INTEGER NOT NULL, resolved_at INTEGER,

@@ -140,18 +140,14 @@ std::vector<Score> scores(Database& database, const RecentScores& recent, const 
   return std::move(gathered.scores);
 }
 
-void add_scores(Database& database, const RecentScores& recent, const std::string& robot,
-                Stamp from, Stamp to, core::ScoreBuckets& buckets) {
-  const auto in_memory = recent.of(robot);  // first, as above
-  const auto known = segments(in_memory);
-  const auto add = [&](const Score& score) {
-    if (score.stamp >= from && score.stamp < to) buckets.add(score);
-  };
+void for_packed_scores(Database& database, const std::string& robot, Stamp from, Stamp to,
+                       const std::function<void(const Score&)>& take) {
   auto query = blocks_between(database, robot, from, to);
-  while (query.step() && !buckets.is_complete(query.stamp(0))) {
-    if (!known.contains(query.integer(1))) std::ranges::for_each(unpacked(query.blob(2)), add);
+  while (query.step()) {
+    for (const Score& score : unpacked(query.blob(2))) {
+      if (score.stamp >= from && score.stamp < to) take(score);
+    }
   }
-  for (const auto& found : in_memory) add(found.arrived.score);
 }
 
 std::optional<RobotHistory> history(Database& database, const RecentScores& recent,

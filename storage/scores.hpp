@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/score_buckets.hpp"
+#include "core/session.hpp"
 #include "storage/recent.hpp"
 #include "storage/records.hpp"
 #include "storage/sqlite.hpp"
@@ -19,9 +20,9 @@ namespace kidnapwatch::storage {
                                               const std::string& robot, core::Stamp from,
                                               core::Stamp to, std::size_t limit);
 
-/// The same scores, added to `buckets` in any order: only what these keep takes memory.
-void add_scores(Database& database, const RecentScores& recent, const std::string& robot,
-                core::Stamp from, core::Stamp to, core::ScoreBuckets& buckets);
+/// Calls `take` with those of them that are in blocks, in any order.
+void for_packed_scores(Database& database, const std::string& robot, core::Stamp from,
+                       core::Stamp to, const std::function<void(const core::Score&)>& take);
 
 /// Where the robot stood, with its last `natural_scores` natural scores; nothing if it has none.
 [[nodiscard]] std::optional<RobotHistory> history(Database& database, const RecentScores& recent,

@@ -40,14 +40,15 @@ void load(Database& database, Segment segment, RecentScores& recent) {
   }
 }
 
-/// Robots whose blocks of this segment, the latest with blocks, were written before the service
+/// Robots whose scores of this segment, the latest one packed, were packed before the service
 /// stopped.
 std::set<std::string> packed_robots(Database& database, Segment segment) {
   Statement query(database,
-                  "SELECT segment, name FROM block JOIN robot ON robot.id = robot "
-                  "ORDER BY block.id DESC");
+                  "SELECT name FROM rollup_open AS open JOIN robot ON robot.id = open.robot "
+                  "WHERE segment = ?1");
+  query.bind(segment);
   std::set<std::string> robots;
-  while (query.step() && query.integer(0) == segment) robots.insert(query.text(1));
+  while (query.step()) robots.insert(query.text(0));
   return robots;
 }
 
@@ -82,6 +83,7 @@ std::int64_t RobotIds::of(const std::string& robot) {
 Segments::Segments(Database& database, SegmentConfig config)
     : config_(config),
       robot_ids_(database),
+      rollups_(database),
       add_score_{Statement(database, insert_into(0)), Statement(database, insert_into(1))},
       empty_{Statement(database, empty(0)), Statement(database, empty(1))},
       add_block_(database,
@@ -135,7 +137,9 @@ void Segments::pack_some() {
 
 void Segments::pack(const std::string& robot, Segment segment) {
   const auto id = robot_ids_.of(robot);
-  for (const Block& block : blocks(recent_->of(robot, segment))) {
+  const auto scores = recent_->of(robot, segment);
+  rollups_.add(id, segment, scores);
+  for (const Block& block : blocks(scores)) {
     add_block_.bind(id, segment, block.arrival, block.first, block.last, block.data).run();
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "storage/recent.hpp"
+#include "storage/rollups.hpp"
 #include "storage/sqlite.hpp"
 
 namespace kidnapwatch::storage {
@@ -72,6 +73,7 @@ class Segments {
 
   const SegmentConfig config_;
   RobotIds robot_ids_;
+  Rollups rollups_;
   std::array<Statement, 2> add_score_;
   std::array<Statement, 2> empty_;
   Statement add_block_;

@@ -262,6 +262,7 @@ class Writer::Thread {
     } catch (const StorageError& error) {
       segments_.undone();
       crash_mark_.undone();
+      retention_.undone();
       if (error.is_full()) retention_.begin(age_base());
       failure = std::current_exception();
       problem = error.what();

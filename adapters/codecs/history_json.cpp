@@ -114,7 +114,7 @@ std::string cell(const Json& row, const char* column) {
 
 std::string spread_cells(const core::Spread& spread) {
   if (spread.count == 0) return ",,,";
-  return "," + number(spread.min) + "," + number(spread.max) + "," + number(spread.mean);
+  return "," + number(spread.min) + "," + number(spread.max) + "," + number(spread.mean());
 }
 
 std::string csv_line(const core::Score& score) {
@@ -262,10 +262,11 @@ std::string incidents_csv(std::span<const core::Incident> incidents) {
 }
 
 Json json(const core::ScoreBucket& bucket) {
-  Json object{{"time", rfc3339(bucket.from)}, {"scores", bucket.scores}};
+  Json object{
+      {"time", rfc3339(bucket.from)}, {"seconds", bucket.width.count()}, {"scores", bucket.scores}};
   for (const auto& [name, spread] : kSpreads) {
     const core::Spread& of = bucket.*spread;
-    if (of.count > 0) object[name] = {{"min", of.min}, {"max", of.max}, {"mean", of.mean}};
+    if (of.count > 0) object[name] = {{"min", of.min}, {"max", of.max}, {"mean", of.mean()}};
   }
   set(object, "threshold", bucket.threshold);
   set(object, "motionThreshold", bucket.motion_threshold);
@@ -274,13 +275,14 @@ Json json(const core::ScoreBucket& bucket) {
 }
 
 std::string score_buckets_csv(std::span<const core::ScoreBucket> buckets) {
-  std::string csv = "time,scores";
+  std::string csv = "time,seconds,scores";
   for (const auto& [name, spread] : kSpreads) {
     for (const char* of : {"Min", "Max", "Mean"}) csv.append(",").append(name).append(of);
   }
   csv += ",threshold,motionThreshold,state\r\n";
   for (const auto& bucket : buckets) {
-    csv += rfc3339(bucket.from) + "," + std::to_string(bucket.scores);
+    csv += rfc3339(bucket.from) + "," + std::to_string(bucket.width.count()) + "," +
+           std::to_string(bucket.scores);
     for (const auto& [name, spread] : kSpreads) csv += spread_cells(bucket.*spread);
     csv += optional_cell(bucket.threshold) + optional_cell(bucket.motion_threshold) + "," +
            std::string(core::name(bucket.state)) + "\r\n";

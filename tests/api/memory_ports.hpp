@@ -124,6 +124,7 @@ class MemoryHistory : public History {
  public:
   std::vector<ConfigChange> all_configs;                        ///< newest first
   std::vector<std::pair<std::string, core::Score>> all_scores;  ///< in order of stamps
+  std::vector<core::ScoreBucket> rolled_up;                     ///< of every robot
   std::vector<core::Incident> all_incidents;                    ///< newest first
   std::vector<std::pair<std::string, core::Evidence>> all_evidence;
 
@@ -143,6 +144,9 @@ class MemoryHistory : public History {
                                                              std::chrono::seconds resolution,
                                                              std::size_t limit) const override {
     core::ScoreBuckets buckets(resolution, limit);
+    for (const auto& bucket : rolled_up) {
+      if (bucket.from < stamps.to && bucket.end() > stamps.from) buckets.add(bucket);
+    }
     for (const auto& score : scores(robot, stamps, all_scores.size())) {
       buckets.add(score);
     }

@@ -92,7 +92,7 @@ TEST_F(RobotsTest, TellScoresByTheMinute) {
   const Json body_ = body(get("/api/v1/robots/r1/scores?resolution=2"));
   ASSERT_EQ(body_.at("buckets").size(), 3U);
   EXPECT_EQ(body_.at("buckets").at(1).dump(),
-            R"({"time":"1970-01-01T00:00:02.000000000Z","scores":2,)"
+            R"({"time":"1970-01-01T00:00:02.000000000Z","seconds":2,"scores":2,)"
             R"("score":{"min":2.0,"max":3.0,"mean":2.5},)"
             R"("scorePerBeam":{"min":0.0,"max":0.0,"mean":0.0},"state":"unknown"})");
   const auto page = get("/api/v1/robots/r1/scores?resolution=2&limit=2");
@@ -102,15 +102,28 @@ TEST_F(RobotsTest, TellScoresByTheMinute) {
   EXPECT_EQ(get("/api/v1/robots/never/scores?resolution=2").status, 404);
 }
 
+TEST_F(RobotsTest, TellWhichBucketsAreCoarserThanAskedFor) {
+  EXPECT_EQ(body(get("/api/v1/robots/r1/scores?resolution=2")).at("resolution"), 2);
+  core::ScoreBucket minute{.from = core::Stamp(std::chrono::minutes(-1)),
+                           .width = std::chrono::minutes(1)};
+  minute.add(history.all_scores.front().second);
+  history.rolled_up = {minute};
+  const Json body_ = body(get("/api/v1/robots/r1/scores?resolution=2&limit=2"));
+  EXPECT_EQ(body_.at("resolution"), 60);
+  EXPECT_EQ(body_.at("buckets").at(0).at("seconds"), 60);
+  EXPECT_EQ(body_.at("buckets").at(1).at("seconds"), 2);
+  EXPECT_FALSE(body(get("/api/v1/robots/r1/scores")).contains("resolution"));
+}
+
 TEST_F(RobotsTest, TellBucketsAsCsvToWhomPrefersIt) {
   const auto response = get("/api/v1/robots/r1/scores?resolution=60", {{"Accept", "text/csv"}});
   EXPECT_EQ(response.content_type, "text/csv; charset=utf-8; header=present");
   EXPECT_EQ(response.body,
-            "time,scores,scoreMin,scoreMax,scoreMean,scorePerBeamMin,scorePerBeamMax,"
+            "time,seconds,scores,scoreMin,scoreMax,scoreMean,scorePerBeamMin,scorePerBeamMax,"
             "scorePerBeamMean,motionMin,motionMax,motionMean,motionConfirmedMin,"
             "motionConfirmedMax,motionConfirmedMean,carryMin,carryMax,carryMean,threshold,"
             "motionThreshold,state\r\n"
-            "1970-01-01T00:00:00.000000000Z,5,0,4,2,0,0,0,,,,,,,,,,,,unknown\r\n");
+            "1970-01-01T00:00:00.000000000Z,60,5,0,4,2,0,0,0,,,,,,,,,,,,unknown\r\n");
 }
 
 TEST_F(RobotsTest, RefuseAResolutionThatIsNone) {

@@ -88,6 +88,22 @@ TEST_F(SettingsTest, NamesTheKeyThatIsWrong) {
   EXPECT_NE(complaint().find("nonsense: is no setting"), std::string::npos) << complaint();
 }
 
+TEST_F(SettingsTest, WhatIsCoarserIsKeptAtLeastAsLong) {
+  write("[store]\nkeep_scores_days = 400\nkeep_minutes_days = 500\nkeep_incidents_days = 400\n");
+  EXPECT_EQ(complaint(), "none");
+  EXPECT_EQ(load_settings(sources_).settings.store_keep_minutes_days, 500U);
+  write("[store]\nkeep_scores_days = 61\n");
+  EXPECT_EQ(complaint(), "store.keep_minutes_days: must not be less than store.keep_scores_days");
+  write("[store]\nkeep_hours_days = 59\n");
+  EXPECT_EQ(complaint(), "store.keep_hours_days: must not be less than store.keep_minutes_days");
+  write("[store]\nkeep_incidents_days = 29\n");
+  EXPECT_EQ(complaint(), "store.keep_incidents_days: must not be less than store.keep_scores_days");
+  write("[store]\nkeep_scores_days = 0\n");
+  EXPECT_NE(complaint().find("store.keep_scores_days: must be from 1"), std::string::npos);
+  write("[store]\nmax_mb = 99\n");
+  EXPECT_NE(complaint().find("store.max_mb: must be from 100"), std::string::npos);
+}
+
 TEST_F(SettingsTest, NamesTheLineOfATomlError) {
   write("[http]\nport = = 3\n");
   EXPECT_NE(complaint().find("kidnapwatch.toml:2"), std::string::npos) << complaint();

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kKills = 12;
 constexpr int kScoresPerIncident = 20;
+constexpr double kApart_s = 300;  // so that minutes and hours come to an end, too
 
 /// Writes incident after incident with scores in between; tells each number once it is durable.
 [[noreturn]] void write_for_ever(const std::filesystem::path& store, int first, int report) {
@@ -28,7 +29,7 @@ constexpr int kScoresPerIncident = 20;
                  .segments = {.scores_per_robot = 50, .robots_per_commit = 1}});
   for (int number = first;; ++number) {
     for (int i = 0; i < kScoresPerIncident; ++i) {
-      const double t = number + i / 100.0;
+      const double t = kApart_s * number + i / 100.0;
       writer.add_score("robot-" + std::to_string(i % 2), score_at(t), at_s(t));
     }
     writer.put_incident({.incident = incident_of(number),
@@ -61,8 +62,19 @@ int kill_a_writer(const std::filesystem::path& store, int first, int enough) {
 
 /// The scores between two incidents, of both robots.
 std::size_t scores_of(const Archive& archive, int number) {
-  return archive.scores("robot-0", at_s(number), at_s(number + 1), 100).size() +
-         archive.scores("robot-1", at_s(number), at_s(number + 1), 100).size();
+  const auto from = at_s(kApart_s * number);
+  const auto to = from + std::chrono::seconds(1);
+  return archive.scores("robot-0", from, to, 100).size() +
+         archive.scores("robot-1", from, to, 100).size();
+}
+
+/// Whether the robot's buckets are those of its scores.
+bool are_summed_up(const Archive& archive, const std::string& robot, std::chrono::seconds width) {
+  constexpr auto kBegin = core::Stamp::min();
+  constexpr auto kEnd = core::Stamp::max();
+  core::ScoreBuckets expected(width, 100'000);
+  for (const auto& score : archive.scores(robot, kBegin, kEnd, 1'000'000)) expected.add(score);
+  return archive.score_buckets(robot, kBegin, kEnd, width, 100'000) == expected.all();
 }
 
 TEST(Crash, NothingAcknowledgedIsLostOrDoubledAndTheFileIsIntact) {
@@ -87,6 +99,11 @@ TEST(Crash, NothingAcknowledgedIsLostOrDoubledAndTheFileIsIntact) {
     EXPECT_EQ(scores_of(archive, number), kScoresPerIncident) << number;
     EXPECT_TRUE(archive.evidence(incident_id(number))) << number;
   }
+  for (const auto width : {std::chrono::seconds(60), std::chrono::seconds(3600)}) {
+    EXPECT_TRUE(are_summed_up(archive, "robot-0", width));
+    EXPECT_TRUE(are_summed_up(archive, "robot-1", width));
+  }
+  EXPECT_GT(Database(folder.store(), Access::read_only).integer("SELECT count(*) FROM rollup"), 10);
   EXPECT_EQ(archive.broken_audit_entry(), std::nullopt);
   EXPECT_EQ(writer.quarantined(), std::nullopt);
 }

@@ -30,15 +30,21 @@ IncidentChange change(int number) {
           .alert = OutboxMessage{incident_id(number), "robot-1", "{}"}};
 }
 
+constexpr int kScoresEach = 4;  // with an incident, of one minute
+
 /// Writes the incident with this number, and returns once it is acknowledged.
 using Write = std::function<void(int number)>;
 /// Opens the store and says how to write to it.
 using Open = std::function<Write(const fs::path& store)>;
 
 Write through_the_writer(const fs::path& store) {
-  const auto writer = std::make_shared<Writer>(WriterConfig{.file = store});
+  const auto writer =
+      std::make_shared<Writer>(WriterConfig{.file = store, .segments = {.scores_per_robot = 8}});
   return [writer](int number) {
-    writer->add_score("robot-1", score_at(number), at_s(number));
+    for (int i = 0; i < kScoresEach; ++i) {  // hours apart, so that rollups are written, too
+      const double t = 2400.0 * number + i;
+      writer->add_score("robot-1", score_at(t), at_s(t));
+    }
     writer->put_incident(change(number));
     writer->flush().get();
   };
@@ -65,7 +71,23 @@ struct Toll {
   int lost = 0;       // incidents that were acknowledged
   int damaged = 0;    // stores
   int separated = 0;  // stores where incidents, alerts, evidence and audit entries differ in number
+  int lost_scores = 0;
+  int miscounted = 0;  // stores where buckets are not those of the scores
+  std::int64_t rollups = 0;
 };
+
+void count_scores(Toll& toll, const Cut& cut) {
+  const Archive archive(cut.store);
+  const auto all = archive.scores("robot-1", core::Stamp::min(), core::Stamp::max(), 10'000);
+  for (const auto width : {std::chrono::seconds(60), std::chrono::seconds(3600)}) {
+    core::ScoreBuckets expected(width, 10'000);
+    for (const auto& score : all) expected.add(score);
+    const auto found =
+        archive.score_buckets("robot-1", core::Stamp::min(), core::Stamp::max(), width, 10'000);
+    toll.miscounted += found == expected.all() ? 0 : 1;
+  }
+  toll.lost_scores += std::max(0, kScoresEach * cut.acknowledged - static_cast<int>(all.size()));
+}
 
 void count(Toll& toll, const Cut& cut) {
   ++toll.cuts;
@@ -82,6 +104,8 @@ void count(Toll& toll, const Cut& cut) {
   const bool is_one = incidents == rows("alert") && incidents == rows("audit") &&
                       2 * incidents == rows("evidence_scan");
   toll.separated += is_one ? 0 : 1;
+  toll.rollups += rows("rollup");
+  count_scores(toll, cut);
 }
 
 /// One store, written to until the end, and the power cut at kCutsPerRun moments of it.
@@ -128,6 +152,9 @@ TEST(PowerCut, NothingAcknowledgedIsLostAndNothingTornApart) {
   EXPECT_EQ(toll.lost, 0);
   EXPECT_EQ(toll.damaged, 0);
   EXPECT_EQ(toll.separated, 0);
+  EXPECT_EQ(toll.lost_scores, 0);
+  EXPECT_EQ(toll.miscounted, 0);
+  EXPECT_GT(toll.rollups, 1000);
 }
 
 TEST(PowerCut, WithoutSyncedCommitsIncidentsWouldBeLost) {

@@ -43,6 +43,32 @@ class RetentionTest : public testing::Test {
     transaction.commit();
   }
 
+  /// Rows of both levels, one an hour each, of so many meaningless bytes.
+  void add_rollups(int from_h, int to_h, std::size_t bytes) {
+    database_.execute("PRAGMA max_page_count = 1000000");  // however full it is
+    Transaction transaction(database_, Transaction::Kind::write);
+    Statement add(database_,
+                  "INSERT INTO rollup (robot, width, begin, arrival, data) "
+                  "VALUES (1, ?1, ?2, ?2, ?3)");
+    for (const auto& level : {kMinutes, kHours}) {
+      for (int h = from_h; h < to_h; ++h) {
+        add.bind(level.width.count(), at_s(h * kHour), std::vector<std::byte>(bytes)).run();
+      }
+    }
+    transaction.commit();
+  }
+  /// A score every ten minutes, packed and summed up.
+  void drive(int from_h, int to_h) {
+    Segments segments(database_, {.scores_per_robot = 20});
+    for (double t = from_h * kHour; t < to_h * kHour; t += 600) {
+      const std::vector rows{ScoreRow{"robot-1", score_at(t), at_s(t)}};
+      Transaction transaction(database_, Transaction::Kind::write);
+      segments.write(rows);
+      transaction.commit();
+      segments.committed();
+    }
+  }
+
   void clean(const RetentionConfig& config, int now_h) {
     Retention retention(database_, config);
     retention.begin(at_s(now_h * kHour));
@@ -124,6 +150,77 @@ TEST_F(RetentionTest, TheOldestScoresGoWhenTheFileIsNearlyFull) {
   EXPECT_EQ(left().back(), 3399);
   EXPECT_LE(database_.integer("PRAGMA page_count") - database_.integer("PRAGMA freelist_count"),
             7'000'000 / 4096);
+}
+
+TEST_F(RetentionTest, RollupsGoWhenTheyAreOld) {
+  add_rollups(0, 1000, 1);
+  clean({.keep_scores = hours(1), .keep_minutes = hours(10), .keep_hours = hours(500)}, 1005);
+  EXPECT_EQ(count("rollup WHERE width = 60"), 5);
+  EXPECT_EQ(count("rollup WHERE width = 3600"), 495);
+}
+
+TEST_F(RetentionTest, RollupsAnswerAndEvidenceRemainWhenScoresAreGone) {
+  drive(0, 200);
+  put(incident_of(1), 50 * kHour);
+  const Archive archive(folder_.store());
+  const auto buckets = [&](int resolution_s) {
+    return archive.score_buckets("robot-1", core::Stamp::min(), core::Stamp::max(),
+                                 std::chrono::seconds(resolution_s), 10'000);
+  };
+  const auto minutes = buckets(60);
+  const auto half_hours = buckets(1800);
+  ASSERT_EQ(minutes.size(), 1200U);
+  const RetentionConfig config{.keep_scores = hours(24), .keep_minutes = hours(10'000)};
+  clean(config, 200);
+  EXPECT_LT(archive.scores("robot-1", at_s(0), core::Stamp::max(), 10'000).size(), 200U);
+  EXPECT_EQ(buckets(60), minutes);
+  EXPECT_EQ(buckets(1800), half_hours);
+  EXPECT_EQ(archive.evidence(incident_id(1))->scores, std::vector{score_at(50 * kHour)});
+  clean({.keep_scores = hours(24), .keep_minutes = hours(48)}, 200);
+  EXPECT_LT(buckets(60).size(), 500U);
+  std::size_t scores = 0;
+  for (const auto& bucket : buckets(60)) scores += bucket.scores;
+  EXPECT_EQ(scores, 1200U);
+  EXPECT_EQ(archive.evidence(incident_id(1))->scores.size(), 1U);
+  EXPECT_EQ(archive.incidents({}).size(), 1U);
+}
+
+TEST_F(RetentionTest, WhatIsCoarserGoesLaterWhenTheFileIsNearlyFull) {
+  const RetentionConfig config{.keep_scores = hours(10'000),
+                               .keep_minutes = hours(10'000),
+                               .keep_hours = hours(10'000),
+                               .max_bytes = 8'000'000};
+  add_blocks(0, 1000, 1900);
+  add_rollups(0, 1500, 1500);  // 2.5 and 2 times 3 MB
+  put(incident_of(1), 500 * kHour);
+  clean(config, 1500);
+  EXPECT_LT(count("block"), 900);
+  EXPECT_EQ(count("rollup"), 3000);
+  add_rollups(1500, 1900, 1500);
+  clean(config, 1900);
+  EXPECT_EQ(left(), std::vector{500});  // evidence
+  EXPECT_LT(count("rollup WHERE width = 60"), 1900);
+  EXPECT_EQ(count("rollup WHERE width = 3600"), 1900);
+  add_rollups(1900, 3900, 1500);
+  clean(config, 3900);
+  EXPECT_EQ(count("rollup WHERE width = 60"), 0);
+  EXPECT_EQ(count("block"), 0);
+  EXPECT_LT(count("rollup WHERE width = 3600"), 3900);
+  EXPECT_EQ(count("incident"), 1);
+  EXPECT_EQ(count("evidence_scan"), 2);
+}
+
+TEST_F(RetentionTest, WhatAFailedTransactionDeletedIsDeletedLater) {
+  add_blocks(0, 300);
+  Retention retention(database_, {.keep_scores = hours(10)});
+  retention.begin(at_s(400 * kHour));
+  {
+    const Transaction transaction(database_, Transaction::Kind::write);
+    retention.clean_some();
+  }
+  retention.undone();
+  finish(retention);
+  EXPECT_TRUE(left().empty());
 }
 
 TEST_F(RetentionTest, MuchFreeSpaceIsGivenBack) {

@@ -138,22 +138,6 @@ TEST_F(SegmentsTest, RangesCutThroughBlocksAndRecentScores) {
   }
 }
 
-TEST_F(SegmentsTest, BucketsHoldWhatTheScoresHoldWhereverTheyAre) {
-  for (int i = 0; i < 57; ++i) commit(next_rows(1));
-  ASSERT_GT(count("block"), 0);
-  ASSERT_GT(count("score_even") + count("score_odd"), 0);
-  for (const std::size_t limit : {1, 3, 1000}) {
-    core::ScoreBuckets expected(std::chrono::seconds(2), limit);
-    core::ScoreBuckets found(std::chrono::seconds(2), limit);
-    for (const auto& score : expected_["robot-0"]) {
-      if (score.stamp >= at_s(1.5) && score.stamp < at_s(11)) expected.add(score);
-    }
-    add_scores(database_, *segments_->recent(), "robot-0", at_s(1.5), at_s(11), found);
-    EXPECT_EQ(found.all(), expected.all());
-    EXPECT_EQ(found.all().size(), std::min<std::size_t>(limit, 6));
-  }
-}
-
 TEST_F(SegmentsTest, AClockSetBackIsOrderedByStampAllTheSame) {
   for (int i = 0; i < 25; ++i) commit(next_rows(1));
   clock_ = 1.1;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the store takes and gives on this disk: run `store_bench FOLDER [SECONDS]`.
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -16,66 +14,14 @@
 #include "storage/segments.hpp"
 #include "storage/upkeep.hpp"
 #include "storage/writer.hpp"
+#include "tests/bench/storage/drive.hpp"
+#include "tests/bench/storage/years.hpp"
 
 namespace kidnapwatch::storage {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-using std::chrono::nanoseconds;
-
-constexpr int kRobots = 1000;
-constexpr double kRateHz = 5.0;
-constexpr core::Stamp kBegin = core::stamp_from_ns(1'790'000'000'000'000'000);
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-std::string name_of(int robot) { return "robot-" + std::to_string(robot); }
-
-/// Scores as a lidar with 360 beams gives them, by both detectors: some beams miss, stamps jitter
-/// by 1 ms.
-class Drive {
- public:
-  explicit Drive(unsigned seed) : random_(seed) {}
-
-  core::Score next() {
-    const auto reference = stamp_;
-    const auto period_us = std::llround(1e6 / kRateHz + jitter_us_(random_));
-    stamp_ += std::chrono::microseconds(period_us);
-    level_ = 0.9 * level_ + 0.1 * noise_(random_);
-    core::Score score{.stamp = stamp_,
-                      .reference = reference,
-                      .threshold = 35.5 + std::floor(count_++ / 100.0),
-                      .state = core::RobotState::normal};
-    score.dissimilarity.cost = std::exp(2.0 + level_ + 0.3 * noise_(random_));
-    score.dissimilarity.cost_per_beam = score.dissimilarity.cost / beams_(random_);
-    carry_ = std::max(0.0, carry_ + 0.5 * noise_(random_) - 0.3);
-    score.motion = core::MotionScore{.score = std::max(0.0, 2.0 * noise_(random_)),
-                                     .confirmed = std::max(0.0, noise_(random_) - 1.0),
-                                     .threshold = 4.5,
-                                     .carry = carry_};
-    return as_stored(score);
-  }
-
- private:
-  std::mt19937 random_;
-  std::normal_distribution<double> jitter_us_{0.0, 1000.0};
-  std::normal_distribution<double> noise_{0.0, 1.0};
-  std::uniform_int_distribution<int> beams_{640, 720};
-  core::Stamp stamp_ = kBegin;
-  double level_ = 0.0;
-  double carry_ = 0.0;
-  int count_ = 0;
-};
-
-std::vector<Drive> fleet() {
-  std::vector<Drive> drives;
-  for (unsigned i = 0; i < kRobots; ++i) drives.emplace_back(i);
-  return drives;
-}
 
 /// Of this process, to the disk.
 double written_mb() {
@@ -86,20 +32,6 @@ double written_mb() {
     if (key == "write_bytes:") return value / 1e6;
   }
   return 0;
-}
-
-struct Quantiles {
-  std::vector<double> values;
-  [[nodiscard]] double at(double share) {
-    if (values.empty()) return std::nan("");
-    std::ranges::sort(values);
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  }
-};
-
-void say(const char* what, Quantiles& ms) {
-  std::printf("%-46s p50 %7.2f  p99 %7.2f  max %7.2f ms  (n %zu)\n", what, ms.at(0.5), ms.at(0.99),
-              ms.at(1.0), ms.values.size());
 }
 
 void fresh(const fs::path& file) {
@@ -139,12 +71,14 @@ void fill_a_day(const fs::path& file, int robots) {
   fresh(file);
   Database database(file, Access::read_write);
   RobotIds ids(database);
+  Rollups rollups(database);
   Statement add(database,
                 "INSERT INTO block (robot, segment, arrival, first_stamp, last_stamp, data) "
                 "VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
   auto drives = fleet();
   double bytes = 0;
   double packing_s = 0;
+  double rolling_s = 0;
   std::vector<ArrivedScore> minute(300);
   database.execute("PRAGMA synchronous = OFF");
   for (int segment = -1440; segment < 0; ++segment) {
@@ -154,9 +88,12 @@ void fill_a_day(const fs::path& file, int robots) {
         arrived.score = drives[static_cast<std::size_t>(robot)].next();
         arrived.arrival = arrived.score.stamp;
       }
-      const auto begin = Clock::now();
+      auto begin = Clock::now();
       const auto packed = blocks(minute);
       packing_s += seconds_since(begin);
+      begin = Clock::now();
+      rollups.add(ids.of(name_of(robot)), segment, minute);
+      rolling_s += seconds_since(begin);
       for (const auto& block : packed) {
         bytes += static_cast<double>(block.data.size());
         add.bind(ids.of(name_of(robot)), segment, core::ns_since_epoch(block.arrival),
@@ -168,9 +105,10 @@ void fill_a_day(const fs::path& file, int robots) {
   }
   const double scores = 1440.0 * 300 * robots;
   database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-  std::printf("%d robot-days: %.2f B a score packed, %.2f in the file; %.1f us to pack a minute\n",
-              robots, bytes / scores, static_cast<double>(fs::file_size(file)) / scores,
-              1e6 * packing_s / (1440.0 * robots));
+  std::printf("%d robot-days: %.2f B a score packed, %.2f in the file with rollups\n", robots,
+              bytes / scores, static_cast<double>(fs::file_size(file)) / scores);
+  std::printf("%.1f us to pack a robot's minute, %.1f us to sum it up and store that\n",
+              1e6 * packing_s / (1440.0 * robots), 1e6 * rolling_s / (1440.0 * robots));
 }
 
 struct Figures {
@@ -179,13 +117,6 @@ struct Figures {
   Quantiles day_ms;       // a robot's day, while writing
   Quantiles thousand_ms;  // 1000 scores within the day, while writing
 };
-
-template <typename Read>
-void time(Quantiles& into, Read read) {
-  const auto begin = Clock::now();
-  read();
-  into.values.push_back(1e3 * seconds_since(begin));
-}
 
 void read_once(const Archive& archive, int days, Figures& figures) {
   static std::mt19937 random(9);
@@ -278,12 +209,14 @@ int main(int argc, char** argv) {
   if (argc < 2) return std::fputs("usage: store_bench FOLDER [SECONDS [PHASES]]\n", stderr), 2;
   const auto file = fs::path(argv[1]) / "bench.sqlite";
   const double seconds = argc > 2 ? std::stod(argv[2]) : 150;
-  const std::string phases = argc > 3 ? argv[3] : "cfrds";
+  const std::string phases = argc > 3 ? argv[3] : "cfyrds";
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   constexpr int kDays = 100;
   for (const char phase : phases) {
     if (phase == 'c') commits_by_batch(file);
     if (phase == 'f') fill_a_day(file, kDays);
+    if (phase == 'y') add_years(file, kDays);
+    if (phase == 'r') read_years(file, kDays);
     if (phase == 'r') read_alone(file, kDays);
     if (phase == 'd') drive(file, kDays, seconds);
     if (phase == 's') start_again(file);
