@@ -35,6 +35,11 @@ async function incident(id) {
 }
 
 const visit = (role, options) => Visitor.of(browser, stack, role, options);
+async function photograph(visitor, name) {
+  if (!SCREENSHOTS) return;
+  await visitor.page.screenshot({ fullPage: true, path: `${SCREENSHOTS}/${name}.png` });
+}
+
 const rows = (page) => page.locator('.inbox > li');
 const current = (page) => page.locator('.inbox > li:has(a:focus)');
 const said = (page) => page.locator('.said');
@@ -128,6 +133,8 @@ test('a kidnapping appears live, and is acknowledged and labelled by keyboard', 
   await row.getByText('open', { exact: true }).waitFor();
 
   await page.keyboard.press('l');
+  await visitor.isAccessible('labelling');
+  await photograph(visitor, 'label');
   await page.keyboard.press('ArrowDown'); // from kidnapping to false alarm
   await page.keyboard.press('Tab');
   await page.keyboard.type(SCRIPT);
@@ -139,6 +146,8 @@ test('a kidnapping appears live, and is acknowledged and labelled by keyboard', 
   await current(page).filter({ hasText: 'live-0001' }).waitFor(); // the dialog gave the focus back
 
   await page.keyboard.press('s');
+  await visitor.isAccessible('shelving');
+  await photograph(visitor, 'shelve');
   await page.getByLabel('1 hour').check();
   await page.keyboard.press('Enter');
   await row.getByText('shelved').waitFor();
@@ -329,10 +338,7 @@ test('every screen is accessible', { timeout: 240_000 }, async () => {
       const overflow = await visitor.page.evaluate(() =>
         document.documentElement.scrollWidth - document.documentElement.clientWidth);
       assert.ok(overflow <= 0, `${name}, ${device}: scrolls sideways by ${overflow} px`);
-      if (SCREENSHOTS) {
-        await visitor.page.screenshot({ fullPage: true,
-          path: `${SCREENSHOTS}/${name}-${device}-${colorScheme}.png` });
-      }
+      await photograph(visitor, `${name}-${device}-${colorScheme}`);
     }
     await visitor.leave();
   }

@@ -107,7 +107,7 @@ const MEANS: Record<IncidentLabel, string> = {
 
 async function askForLabel(incidents: Incident[]): Promise<object | null> {
   const label = incidents.length === 1 ? incidents[0]!.label : undefined;
-  const form = await ask(`What was it? ${named(incidents)}`, 'Label',
+  const form = await ask(`${named(incidents)}: what was it?`, 'Label',
     choices('label', 'Label', LABELS.map((one) => [one, MEANS[one]]), label ?? 'kidnapping'),
     commentField(incidents),
     h('p', { class: 'hint' }, 'Thresholds are judged by labels: see Tuning.'));
