@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <ctime>
+#include <iomanip>
+#include <locale>
 #include <optional>
+#include <sstream>
 
 #include "core/bad_input.hpp"
 
@@ -185,6 +189,16 @@ bool prefers(std::string_view accept, std::string_view type, std::string_view ot
 
 bool accepts(std::string_view accept_encoding, std::string_view coding) {
   return weight(accept_encoding, coding) > 0.0;
+}
+
+std::string http_date(std::chrono::system_clock::time_point time) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::put_time(&utc, "%a, %d %b %Y %H:%M:%S GMT");
+  return text.str();
 }
 
 bool lists_tag(std::string_view list, std::string_view tag, bool weak) {

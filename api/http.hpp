@@ -2,6 +2,7 @@
 // A request and a response as plain values, and the few rules of HTTP that routes need.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
@@ -74,6 +75,9 @@ struct Target {
 
 /// Whether `accept_encoding` (the header's value) names `coding`, and not with a weight of 0.
 [[nodiscard]] bool accepts(std::string_view accept_encoding, std::string_view coding);
+
+/// As in the Date header: "Sun, 06 Nov 1994 08:49:37 GMT" (RFC 9110, section 5.6.7).
+[[nodiscard]] std::string http_date(std::chrono::system_clock::time_point time);
 
 /// Whether a list of entity tags (If-Match, If-None-Match) has `tag`, or is "*". A weak tag (W/"1")
 /// has only those that `weak` allows.

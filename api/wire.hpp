@@ -2,6 +2,7 @@
 // Requests and responses as Beast has them, and as routes have them.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,7 @@ inline http::response<http::string_body> message(Response&& response, bool keep_
   for (const auto& [name, value] : response.headers) {
     result.insert(name, value);
   }
+  result.set(http::field::date, http_date(std::chrono::system_clock::now()));
   result.set(http::field::cache_control, "no-cache");
   result.set("X-Content-Type-Options", "nosniff");
   result.keep_alive(keep_alive && !response.feed);

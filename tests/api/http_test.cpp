@@ -118,6 +118,18 @@ TEST(Prefers, TakesTheHeavierType) {
   EXPECT_FALSE(csv(",,;;q=,/"));
 }
 
+TEST(HttpDate, IsTheExampleOfTheStandard) {
+  EXPECT_EQ(http_date(std::chrono::system_clock::from_time_t(784'111'777)),
+            "Sun, 06 Nov 1994 08:49:37 GMT");
+}
+
+TEST(Accepts, TakesTheCodingsThatAreNamed) {
+  EXPECT_TRUE(accepts("gzip", "gzip"));
+  EXPECT_TRUE(accepts("deflate, GZIP;q=0.5", "gzip"));
+  EXPECT_FALSE(accepts("gzip;q=0", "gzip"));
+  EXPECT_FALSE(accepts("", "gzip"));
+}
+
 TEST(ListsTag, FindsATagInAList) {
   EXPECT_TRUE(lists_tag(R"("1", "2")", R"("2")", false));
   EXPECT_TRUE(lists_tag("*", R"("2")", false));

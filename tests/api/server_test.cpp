@@ -43,6 +43,7 @@ TEST(Server, AnswersAgainAndAgainOverOneConnection) {
     EXPECT_EQ(reply.body, "GET /" + std::to_string(i) + " ");
     EXPECT_TRUE(says(reply, "Content-Type: text/plain"));
     EXPECT_TRUE(says(reply, "X-Content-Type-Options: nosniff"));
+    EXPECT_NE(reply.head.find("Date: "), std::string::npos);
   }
 }
 

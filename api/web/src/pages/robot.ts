@@ -31,7 +31,7 @@ export const robot: Page = (root, { id = '', query }) => {
   }).catch((error: unknown) => {
     if (isAbort(error)) return;
     const isGone = error instanceof Problem && error.status === 404;
-    root.replaceChildren(isGone ? empty(`No robot is named ${id}.`, h('a', { href: link('fleet') }, 'All robots'))
+    root.replaceChildren(h('h1', {}, id), isGone ? empty(`No robot is named ${id}.`, h('a', { href: link('fleet') }, 'All robots'))
       : failed(error, () => location.reload()));
   });
   return () => disposals.forEach((dispose) => dispose());
@@ -182,7 +182,7 @@ function scoreCard(id: string, query: URLSearchParams, now: Now, disposals: (() 
         button('+', () => zoom(0.4), { 'aria-label': 'Zoom in', title: 'Zoom in' }),
         button('−', () => zoom(2.5), { 'aria-label': 'Zoom out', title: 'Zoom out' }))),
     plot.element, message,
-    h('div', { class: 'row' }, stateLegend(), h('span', { class: 'hint' }, 'Drag over the plot to look closer.'), about));
+    h('div', { class: 'row' }, stateLegend(), h('span', { class: 'hint only-mouse' }, 'Drag over the plot to look closer.'), about));
 }
 
 function stateLegend(): HTMLElement {
