@@ -43,11 +43,20 @@ export function ink(): Ink {
   return { line: colour('--accent'), above: colour('--kidnapped'), threshold: colour('--line-strong') };
 }
 
+export interface Size {
+  width: number;
+  height: number;
+}
+
+/** Asking for it may lay the whole page out: where there are many, ask once. */
+export function sizeOf(canvas: HTMLCanvasElement): Size {
+  return { width: canvas.clientWidth, height: canvas.clientHeight };
+}
+
 /** Draws the `span` seconds before `now` (in seconds). */
 export function draw(canvas: HTMLCanvasElement, trace: Trace, now: number, { line, above, threshold }: Ink,
-  span = SPAN_S): void {
+  { width, height }: Size, span = SPAN_S): void {
   const context = canvas.getContext('2d');
-  const { clientWidth: width, clientHeight: height } = canvas;
   if (!context || width === 0) return;
   fit(canvas, context, width, height);
   const { times, scores } = trace;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every robot, the worst first, live. Only rows that can be seen are drawn.
 import { age, button, count, duration, fill, h, scoreText, setText, words } from '../dom';
-import { onRobots } from '../live';
+import { onRobots, onState } from '../live';
 import { link, remember, type Page } from '../page';
 import { at, get, serviceNow, type Robot, type RobotState, type RobotUpdate, type ScoreBucket } from '../rest';
-import { draw, ink, SPAN_S, Trace, type Ink } from '../sparkline';
-import { badge, empty, failed, isAbort, loading, ROBOT_STATES } from '../states';
+import { draw, ink, sizeOf, SPAN_S, Trace, type Size } from '../sparkline';
+import { badge, empty, loading, ROBOT_STATES } from '../states';
 import { onTheme } from '../theme';
 
 const HISTORY_RESOLUTION_S = 10;
 const HISTORY_AGE_MS = 60_000; // then it is loaded anew: between two updates may have been a spike
 const HISTORIES_AT_ONCE = 3;
+const SILENT_MS = 2000; // after which a stream that tells of no robot has none
 
 interface Row {
   robot: RobotUpdate;
@@ -57,6 +58,8 @@ export const fleet: Page = (root, { query }) => {
   let search = query.get('q') ?? '';
   let colours = ink();
   let isSorted = false;
+  let isKnown = false; // what the fleet is, be it empty
+  let size: Size | undefined; // of every canvas
   let frame = 0;
   let loads = 0;
 
@@ -80,15 +83,20 @@ export const fleet: Page = (root, { query }) => {
 
   const filtered = () => {
     remember({ state: wanted, q: search });
-    filters.querySelectorAll('button').forEach((one) =>
-      one.setAttribute('aria-pressed', String(one.dataset['state'] === (wanted ?? 'all'))));
+    press();
     isSorted = false;
     ask();
+  };
+
+  const press = () => {
+    filters.querySelectorAll('button').forEach((one) =>
+      one.setAttribute('aria-pressed', String(one.dataset['state'] === (wanted ?? 'all'))));
   };
 
   const ask = () => { frame ||= requestAnimationFrame(render); };
 
   const take = (robots: RobotUpdate[], isAll: boolean) => {
+    isKnown = true;
     if (isAll) drop(new Set(robots.map(({ id }) => id)));
     const now = serviceNow() / 1000;
     for (const robot of robots) {
@@ -149,9 +157,11 @@ export const fleet: Page = (root, { query }) => {
     frame = 0;
     if (!isSorted) sort();
     const now = serviceNow() / 1000;
-    for (const row of visible) {
-      if (!row.parts) row.parts = filledIn(row);
-      if (row.dirty) refresh(row, row.parts, now, colours);
+    const dirty = [...visible].filter((row) => row.dirty || !row.parts);
+    dirty.forEach((row) => refresh(row, row.parts ??= filledIn(row)));
+    for (const { parts, trace } of dirty) {
+      size ??= sizeOf(parts!.canvas); // once, after everything was changed
+      draw(parts!.canvas, trace, now, colours, size);
     }
     void loadHistories();
   };
@@ -171,7 +181,7 @@ export const fleet: Page = (root, { query }) => {
     arrange(shown);
     setText(total, shown.length === rows.size ? '' : `${count(shown.length)} of ${count(rows.size)}`);
     columns.hidden = shown.length === 0;
-    tellNothing(shown.length > 0);
+    if (isKnown) tellNothing(shown.length > 0);
   };
 
   /** Moves as few rows as possible; the focus stays where it is. */
@@ -224,29 +234,32 @@ export const fleet: Page = (root, { query }) => {
     }
   };
 
-  const load = async () => {
-    fill(nothing, loading('Loading the fleet'));
-    try {
-      const { robots } = await get<{ robots: Robot[] }>('/api/v1/robots', stop.signal);
-      take(robots.map(updateOf), false);
-      filtered();
-    } catch (error) {
-      if (!isAbort(error)) fill(nothing, failed(error, () => void load()));
-    }
-  };
-
   filters.append(filterButton('all'), ...ROBOT_STATES.map(filterButton));
   root.append(h('div', { class: 'head' }, h('h1', {}, 'Fleet'), total, h('div', { class: 'end' }, searchBox)),
     filters, columns, list, nothing);
   columns.hidden = true;
-  void load();
+  press();
+  fill(nothing, loading('Loading the fleet'));
   const offRobots = onRobots(take);
+  let silence: ReturnType<typeof setTimeout> | undefined;
+  const offState = onState((state) => {
+    clearTimeout(silence);
+    if (state === 'live') silence = setTimeout(() => { isKnown = true; isSorted = false; ask(); }, SILENT_MS);
+    else if (state === 'reconnecting' && rows.size === 0) {
+      fill(nothing, empty('The service does not answer.', 'This page shows the fleet as soon as it does.'));
+    }
+  });
   const redraw = () => { visible.forEach((row) => { row.dirty = true; }); ask(); };
+  const resized = new ResizeObserver(() => { size = undefined; redraw(); });
+  resized.observe(list);
   const offTheme = onTheme(() => { colours = ink(); redraw(); });
   const ticking = setInterval(redraw, 1000);
   return () => {
     stop.abort();
     offRobots();
+    offState();
+    clearTimeout(silence);
+    resized.disconnect();
     offTheme();
     clearInterval(ticking);
     cancelAnimationFrame(frame);
@@ -267,8 +280,8 @@ function filledIn({ element }: Row): Parts {
   return parts;
 }
 
-function refresh(row: Row, parts: Parts, now: number, colours: Ink): void {
-  const { robot, trace } = row;
+function refresh(row: Row, parts: Parts): void {
+  const { robot } = row;
   if (row.shown !== robot.state) {
     fill(parts.state, badge(robot.state));
     row.shown = robot.state;
@@ -279,7 +292,6 @@ function refresh(row: Row, parts: Parts, now: number, colours: Ink): void {
   parts.score.classList.toggle('is-above', score !== undefined && threshold !== undefined && score > threshold);
   setText(parts.limit, threshold === undefined ? 'learning' : scoreText(threshold));
   setText(parts.age, duration(age(robot.lastScanAt)));
-  draw(parts.canvas, trace, now, colours);
   row.dirty = false;
 }
 

@@ -5,7 +5,7 @@ import { histogram, quantile, seconds, since, total, type Histogram } from '../m
 import type { Page } from '../page';
 import { poll } from '../poll';
 import { call, get, type Counts, type Service } from '../rest';
-import { draw, ink, Trace } from '../sparkline';
+import { draw, ink, sizeOf, Trace } from '../sparkline';
 import { badge, failed, isAbort, loading } from '../states';
 import { onTheme } from '../theme';
 
@@ -44,7 +44,7 @@ export const service: Page = (root) => {
 
   const paint = () => {
     const [first, last] = [trace.times[0], trace.times.at(-1)];
-    if (first !== undefined && last !== undefined) draw(canvas, trace, last, ink(), Math.max(60, last - first));
+    if (first !== undefined && last !== undefined) draw(canvas, trace, last, ink(), sizeOf(canvas), Math.max(60, last - first));
   };
 
   const tell = () => {
