@@ -138,6 +138,7 @@ async function enter(): Promise<void> {
 frame();
 onUnauthorized(askForToken);
 live.onState((state) => {
+  stream.hidden = state === 'off'; // where nobody is signed in
   setText(stream, STREAM[state]);
   stream.className = `stream stream-${state}`;
 });

@@ -17,7 +17,7 @@ export function link(page: string, id?: string, query: Record<string, string | u
 
 /** Changes the query of the page's own address, without a new page: what a reload or a link shows. */
 export function remember(query: Record<string, string | undefined>): void {
-  const [path = '', old = ''] = location.hash.split('?');
+  const [path = '', old = ''] = (location.hash || '#/fleet').split('?');
   const merged = new URLSearchParams(old);
   for (const [name, value] of Object.entries(query)) {
     if (value) merged.set(name, value);

@@ -121,7 +121,7 @@ function settings(options: PlotOptions, shown: () => Shown, width: number): uPlo
     series: [
       { label: 'Time', value: (_, raw) => raw === null ? '–' : localTime(new Date(raw * 1000)) },
       line('Lowest', '--accent', { width: 0, show: isBuckets }),
-      line(isBuckets ? 'Highest' : 'Score', '--accent', { points: { show: () => !isBuckets && shown().series.time.length < 150, size: 4 } }),
+      line(isBuckets ? 'Highest' : 'Score', '--accent', { points: { show: () => shown().series.time.length < 150, size: 4 } }),
       line('Mean', '--before', { width: 1, show: isBuckets, dash: [2, 3] }),
       line('Confirmed', '--seen', { show: series.kind === 'motion' }),
       line('Threshold', '--kidnapped', { dash: [6, 4] }),

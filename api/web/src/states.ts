@@ -27,6 +27,7 @@ export function failed(error: unknown, retry?: () => void): HTMLElement {
 export function sentence(error: unknown): string {
   if (!(error instanceof Problem)) return `This page failed: ${String(error)}`;
   if (error.status === 0) return 'The service does not answer. Is it running, and is this device on its network?';
+  if (error.status === 401) return 'The service does not know this token.';
   if (error.status === 403) return `You may not do this: ${error.detail}.`;
   if (error.status === 429) return 'Too many requests at once. Wait a moment.';
   return error.detail.charAt(0).toUpperCase() + error.detail.slice(1);
