@@ -282,6 +282,15 @@ test('a threshold is tried out, saved, and taken back', async () => {
   await slider.focus();
   await page.keyboard.press('Home');
   await figure('Kept').getByText(String(all), { exact: true }).waitFor();
+  const exact = async () => Number(await page.getByLabel('Exactly').inputValue());
+  const lowest = await exact();
+  const { x, y, width, height } = await page.locator('.strip').boundingBox();
+  await page.mouse.move(x + width / 2, y + height - 40);
+  await page.mouse.down();
+  const middle = await exact();
+  await page.mouse.move(x + 0.8 * width, y + height - 40);
+  await page.mouse.up();
+  assert.ok(lowest < middle && middle < await exact(), `${lowest}, ${middle}, ${await exact()}`);
 
   await page.getByLabel('Exactly').fill('7.5');
   await page.getByLabel('Exactly').press('Enter');
