@@ -35,12 +35,13 @@ export class Trace {
 
 export interface Ink {
   line: string;
+  idle: string; // while there is no threshold
   above: string;
   threshold: string;
 }
 
 export function ink(): Ink {
-  return { line: colour('--accent'), above: colour('--kidnapped'), threshold: colour('--line-strong') };
+  return { line: colour('--accent'), idle: colour('--line-strong'), above: colour('--kidnapped'), threshold: colour('--line-strong') };
 }
 
 export interface Size {
@@ -54,7 +55,7 @@ export function sizeOf(canvas: HTMLCanvasElement): Size {
 }
 
 /** Draws the `span` seconds before `now` (in seconds). */
-export function draw(canvas: HTMLCanvasElement, trace: Trace, now: number, { line, above, threshold }: Ink,
+export function draw(canvas: HTMLCanvasElement, trace: Trace, now: number, { line, idle, above, threshold }: Ink,
   { width, height }: Size, span = SPAN_S): void {
   const context = canvas.getContext('2d');
   if (!context || width === 0) return;
@@ -75,7 +76,7 @@ export function draw(canvas: HTMLCanvasElement, trace: Trace, now: number, { lin
   }
   context.lineWidth = 1.5;
   context.lineJoin = 'round';
-  context.strokeStyle = line;
+  context.strokeStyle = limit > 0 ? line : idle;
   const path = () => {
     for (let i = first; i < times.length; i++) {
       const gap = i === first || times[i]! - times[i - 1]! > 30;

@@ -7,7 +7,7 @@ import { poll } from '../poll';
 import { call, get, type Counts, type Service } from '../rest';
 import { draw, ink, sizeOf, Trace } from '../sparkline';
 import { badge, failed, isAbort, loading } from '../states';
-import { onTheme } from '../theme';
+import { colour, onTheme } from '../theme';
 
 const EVERY_MS = 2000;
 const LATELY_MS = 60_000;
@@ -44,7 +44,7 @@ export const service: Page = (root) => {
 
   const paint = () => {
     const [first, last] = [trace.times[0], trace.times.at(-1)];
-    if (first !== undefined && last !== undefined) draw(canvas, trace, last, ink(), sizeOf(canvas), Math.max(60, last - first));
+    if (first !== undefined && last !== undefined) draw(canvas, trace, last, { ...ink(), idle: colour('--accent') }, sizeOf(canvas), Math.max(60, last - first));
   };
 
   const tell = () => {
