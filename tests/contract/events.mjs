@@ -2,7 +2,7 @@
 // Server-Sent Events, which Prism cannot pass on as they come, held to their description.
 import http from 'node:http';
 
-import { asyncapi, misfit, openapi } from './contract.mjs';
+import { asyncapi, misfit, misfitOfAnswer, openapi, operations } from './contract.mjs';
 import { ask } from './http.mjs';
 import { eventually } from './stack.mjs';
 
@@ -91,6 +91,12 @@ export async function events(stack) {
   });
   stack.revoke('leaver');
   await eventually('the stream of a revoked token ends', () => leaver.ended, 30);
+  const busy = await eventually('too many requests', async () => {
+    const answer = await ask({ port: stack.hasty, path: '/api/v1/events', headers: stack.as('viewer') });
+    return answer.status === 429 && answer;
+  });
+  const wrong = misfitOfAnswer(operations.find((one) => one.id === 'getEvents'), busy);
+  if (wrong) throw new Error(wrong);
   if (again.ended) throw new Error('a stream ended by itself');
   again.close();
   [first, again, leaver].forEach(check);

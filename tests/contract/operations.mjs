@@ -10,9 +10,10 @@ const later = { from: '2100-01-01T00:00:00Z' };
 /// What no request brings about: faults, and work of others that happens to be under way.
 const unreachable = new Set(['500', 'acknowledgeIncident 503', 'unacknowledgeIncident 503',
   'resolveIncident 503', 'shelveIncident 503', 'labelIncident 503', 'previewThreshold 503',
-  'calibrateThreshold 503', 'getEvents 503']);
+  'calibrateThreshold 503', 'getEvents 503', 'getScans 503',
+  'getEvents 429']);
 
-/// Prism waits for a stream's end: events.mjs holds it to its description.
+/// Prism waits for a stream's end: events.mjs holds it to its description, 429 included.
 const streams = new Set(['getEvents']);
 
 /// By operation: the requests that are answered with success, in this order.
@@ -76,9 +77,11 @@ const refusals = (operation, good) => ({
 });
 
 function unknown(operation, good) {
-  if (operation.id === 'getRoc') return { query: { robot: 'nobody' } };
-  return good.id === undefined ? { body: { ...good.body, robot: 'nobody' } }
-    : { id: operation.id === 'restoreConfig' ? 999_999 : 'nobody' };
+  if (operation.path.includes('{id}')) {
+    return { id: operation.id === 'restoreConfig' ? 999_999 : 'nobody' };
+  }
+  return operation.method === 'GET' ? { query: { robot: 'nobody' }, user: 'one-robots' }
+    : { body: { ...good.body, robot: 'nobody' } };
 }
 
 function inTheWay(operation, good) {
@@ -110,7 +113,7 @@ class Suite {
       headers: { ...(Object.keys(operation.bodies).length ? json : {}),
         ...(operation.open ? {} : this.stack.as(user)), ...request.headers },
       body: body ?? (operation.method === 'POST' ? '' : undefined),
-    });
+    }).catch((error) => { throw new Error(`${operation.id}, for ${expected}: ${error}`); });
     this.asked += 1;
     if (expected === 429 && answer.status !== 429 && attempts > 1) {  // a second went by
       return this.ask(operation, request, expected, attempts - 1);

@@ -113,6 +113,7 @@ export class Stack {
   async begin() {
     await this.startBroker();
     for (const role of ['viewer', 'operator', 'admin']) this.token(role, role);
+    this.token('one-robots', 'viewer', ['sim-0001']);
     const url = `mqtt://127.0.0.1:${this.broker}`;
     this.rest = await this.startService('service',
       ['--mqtt-url', url, '--mqtt-scores-per-s', '10', '--http-rate-limit-per-s', '0']);
