@@ -30,6 +30,7 @@ class Controller:
         self.robot = robot
         self.topic = f"{prefix}/{robot}"
         self.seen = {}  # by incident: the highest seq
+        self.stopped = False
         self.awaited = {}  # commands by their correlation data
         self.client = mqtt.Client(client_id=robot, protocol=mqtt.MQTTv5)
         self.client.on_connect = self.on_connect
@@ -58,21 +59,27 @@ class Controller:
             return  # the same eventId again, or what happened before it
         self.seen[alert["incidentId"]] = alert["seq"]
         say(f"alert {alert['type']} {alert['incidentId']} seq {alert['seq']}")
-        if alert["type"] == "opened":
-            self.stop(alert)
-        elif alert["state"] == "resolved":
-            self.go(alert)
+        if alert["state"] == "resolved":
+            self.go(f"resolved by {alert.get('resolvedBy', 'rule')}")
+        else:
+            self.stop(alert["explanation"])
 
-    def stop(self, alert):
-        # The robot's own way to stand still belongs here: a Twist of zeros, a safety stop, ...
-        say(f"STOP: {alert['explanation']}")
+    def stop(self, why):
+        if not self.stopped:
+            # The robot's own way to stand still belongs here: a Twist of zeros, a safety stop, ...
+            self.stopped = True
+            say(f"STOP: {why}")
 
-    def go(self, alert):
-        say(f"GO: resolved by {alert.get('resolvedBy', 'rule')}")
+    def go(self, why):
+        if self.stopped:
+            self.stopped = False
+            say(f"GO: {why}")
 
     def on_state(self, _client, _userdata, message):
         state = json.loads(message.payload)
         say(f"state {state['state']}" + (f": {state['explanation']}" if "trouble" in state else ""))
+        if state["state"] == "kidnapped":  # retained: known even to a controller new to all this
+            self.stop("an incident is open")
 
     def read_localization(self):
         for line in sys.stdin:
