@@ -58,7 +58,8 @@ class PackedScores {
                  "SELECT begin, data FROM rollup "
                  "WHERE robot = ?1 AND width = ?2 AND begin >= ?3 AND begin < ?4 ORDER BY begin"),
         minutes_(database,
-                 "SELECT data FROM rollup WHERE robot = ?1 AND width = ?2 AND begin = ?3"),
+                 "SELECT data FROM rollup WHERE robot = ?1 AND width = ?2 AND begin >= ?3 AND "
+                 "begin < ?4"),
         number_(number_of(database, robot_).value_or(0)),
         open_(open_rollups(database, number_)) {}
 
@@ -135,7 +136,7 @@ BucketMap PackedScores::minutes_of(const ScoreBucket& hour) {
   for (const auto& minute : open_.minutes) {
     if (hour.holds(minute.from)) storage::add(minutes, minute);
   }
-  minutes_.bind(number_, kMinutes.width.count(), hour.from);
+  minutes_.bind(number_, kMinutes.width.count(), hour.from, hour.end());
   while (minutes_.step()) add_all(minutes, unpacked(minutes_.blob(0), kMinutes));
   return minutes;
 }

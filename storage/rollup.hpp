@@ -19,7 +19,7 @@ struct RollupLevel {
 
   friend bool operator==(const RollupLevel&, const RollupLevel&) = default;
 };
-inline constexpr RollupLevel kMinutes{std::chrono::minutes(1), std::chrono::hours(1)};
+inline constexpr RollupLevel kMinutes{std::chrono::minutes(1), std::chrono::minutes(15)};
 inline constexpr RollupLevel kHours{std::chrono::hours(1), std::chrono::hours(24)};
 
 /// The least number of seconds from `resolution` (1 s to a day) on that divides a minute, divides

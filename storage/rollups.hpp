@@ -25,9 +25,9 @@ struct OpenRollups {
 
 /// One thread. Throws StorageError.
 ///
-/// Of each robot the minutes of one hour and the hours of one day are open: they are replaced with
-/// every segment, and become rows, never to be changed again, once the robot's scores are of
-/// another hour or day. Late scores make rows of their own, for what is read is added up.
+/// Of each robot the minutes of a quarter of an hour and the hours of a day are open: they are
+/// replaced with every segment, and become rows, never to be changed again, once the robot's scores
+/// are of another one. Late scores make rows of their own, for what is read is added up.
 class Rollups {
  public:
   explicit Rollups(Database& database);

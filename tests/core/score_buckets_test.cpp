@@ -108,6 +108,7 @@ TEST(Spread, IsTheSameInWhateverPartsItIsAdded) {
   std::normal_distribution<double> exponent(0.0, 12.0);
   for (int round = 0; round < 100; ++round) {
     std::vector<double> values;
+    values.reserve(50);
     for (int i = 0; i < 50; ++i) values.push_back((i % 3 - 1) * std::exp(exponent(random)));
     Spread whole;
     for (const double value : values) whole.add(value);

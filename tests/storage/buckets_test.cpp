@@ -239,9 +239,9 @@ TEST_F(BucketsTest, ThatAreBrokenAreDamage) {
   EXPECT_THROW((void)found(seconds(60)), StorageError);
 }
 
-TEST_F(BucketsTest, OfAnHourAreWrittenOnce) {
+TEST_F(BucketsTest, OfAQuarterAreWrittenOnce) {
   drive(kMidnight, kMidnight + hours(50), seconds(20));
-  EXPECT_EQ(count("rollup WHERE width = 60 AND robot = 1"), 49);
+  EXPECT_EQ(count("rollup WHERE width = 60 AND robot = 1"), 199);
   EXPECT_EQ(count("rollup WHERE width = 3600 AND robot = 1"), 2);
   EXPECT_EQ(count("rollup_open"), 2);
 }
