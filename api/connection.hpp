@@ -204,6 +204,7 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
 
   /// Of a request that cannot be read.
   void reject(error_code error) {
+    head_ = parser_->get().method() == http::verb::head;  // if it came so far
     if (late_ && parser_->got_some()) {
       send(problem(408, "the request took too long"), false);
     } else if (late_ || error == http::error::end_of_stream ||

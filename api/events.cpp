@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kAlertsAtOnce = 100;
 constexpr double kRobotsEvery_s = 1.0;
+constexpr double kCheckEvery_s = 1.0;
 constexpr double kSignOfLifeEvery_s = 15.0;  // proxies cut what is silent for longer
 
 std::string event(std::string_view type, std::string_view data) {
@@ -29,7 +30,8 @@ class Events final : public Feed {
         robot_(std::move(robot)),
         after_(after),
         text_(std::move(first)),
-        spoken_s_(ports_.live.now_s()) {}
+        spoken_s_(ports_.live.now_s()),
+        checked_s_(spoken_s_) {}
 
   std::optional<std::string> next() override {
     const double now_s = ports_.live.now_s();
@@ -37,13 +39,16 @@ class Events final : public Feed {
     if (text.empty() && now_s >= spoken_s_ + kSignOfLifeEvery_s) {
       text = ":\n\n";
     }
-    if (text.empty()) {
+    if (text.empty() && now_s < checked_s_ + kCheckEvery_s) {
       return text;
     }
+    checked_s_ = now_s;
     if (ports_.guard.caller(request_) != caller_) {
       return std::nullopt;  // the token was revoked, or means another role now
     }
-    spoken_s_ = now_s;
+    if (!text.empty()) {
+      spoken_s_ = now_s;
+    }
     return text;
   }
 
@@ -82,6 +87,7 @@ class Events final : public Feed {
   std::uint64_t robots_version_ = 0;
   double robots_due_s_ = 0.0;
   double spoken_s_;
+  double checked_s_;  // that the token still means the same
 };
 
 /// Throws BadInput unless it is the id of an event.

@@ -2,7 +2,9 @@
 // The transitions.
 #include "core/incident_command.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "core/bad_input.hpp"
 
@@ -60,6 +62,12 @@ Changed apply(Incident& incident, const IncidentCommand& command, Stamp now) {
   return AlertType::updated;
 }
 
+/// Code points of UTF-8: all bytes but those that continue one.
+std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 }  // namespace
 
 void check(const IncidentCommand& command) {
@@ -72,8 +80,8 @@ void check(const IncidentCommand& command) {
   if (command.action == IncidentAction::label && !command.label) {
     throw BadInput("label", "must be one of kidnapping, false_alarm, test");
   }
-  if (command.comment && command.comment->size() > kLongestComment) {
-    throw BadInput("comment", "must have at most 2000 bytes");
+  if (command.comment && characters(*command.comment) > kLongestComment) {
+    throw BadInput("comment", "must have at most 2000 characters");
   }
 }
 

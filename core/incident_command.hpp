@@ -29,7 +29,7 @@ struct IncidentCommand {
 };
 
 inline constexpr double kLongestShelving_s = 7 * 24 * 3600.0;
-inline constexpr std::size_t kLongestComment = 2000;  // bytes
+inline constexpr std::size_t kLongestComment = 2000;  ///< code points
 
 /// Throws BadInput naming `seconds`, `label` or `comment` unless the command is complete.
 void check(const IncidentCommand& command);

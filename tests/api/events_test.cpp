@@ -159,6 +159,16 @@ TEST_F(TokenEventsTest, EndWhenTheTokenIsRevoked) {
   EXPECT_EQ(feed->next(), std::nullopt);
 }
 
+TEST_F(TokenEventsTest, EndWithinASecondWhereNothingIsToBeTold) {
+  const auto feed = ask().feed;
+  (void)beginning(*feed);
+  caller.reset();
+  now_s = 0.9;
+  EXPECT_EQ(feed->next(), "");
+  now_s = 1.0;
+  EXPECT_EQ(feed->next(), std::nullopt);
+}
+
 TEST_F(TokenEventsTest, EndWhenTheTokenMeansSomethingElse) {
   const auto feed = ask().feed;
   (void)beginning(*feed);

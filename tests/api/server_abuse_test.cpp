@@ -240,5 +240,13 @@ TEST(ServerAbuse, ServesAgainWhenAClientHasLeft) {
   }
 }
 
+TEST(ServerAbuse, RefusesALongHeaderOfHeadWithoutABody) {
+  const Server server(patient(), ok);
+  Client client(server.port());
+  client.send("HEAD / HTTP/1.1\r\nHost: a\r\nX: " + std::string(9000, 'x') + "\r\n\r\n");
+  EXPECT_EQ(client.read(true).status, 431);
+  EXPECT_EQ(client.read_to_end(), "");
+}
+
 }  // namespace
 }  // namespace kidnapwatch::api

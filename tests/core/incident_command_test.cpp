@@ -118,5 +118,14 @@ TEST(IncidentCommand, NamesWhatIsMissingOrTooLong) {
   }
 }
 
+TEST(IncidentCommand, TakesACommentOfSoManyCharactersNotBytes) {
+  auto with_comment = command(label);
+  with_comment.comment = "";
+  for (int i = 0; i < 2000; ++i) *with_comment.comment += "\u00fc";
+  EXPECT_NO_THROW(check(with_comment));
+  *with_comment.comment += "\u00fc";
+  EXPECT_EQ(refused(with_comment), "comment");
+}
+
 }  // namespace
 }  // namespace kidnapwatch::core
