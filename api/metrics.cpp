@@ -122,6 +122,8 @@ std::vector<MetricFamily> families(const Fleet& fleet) {
              number(status.queued_writes)),
       single(MetricType::Counter, "kidnapwatch_lost_writes_total",
              "Records refused because the store's queue was full.", number(status.lost_writes)),
+      single(gauge, "kidnapwatch_store_bytes", "Size of the store on the disk.",
+             number(status.store_bytes)),
       single(gauge, "kidnapwatch_broker_connected", "1 while the MQTT broker is connected.",
              number(status.broker_connected)),
       single(gauge, "kidnapwatch_store_healthy", "1 while the store takes writes.",

@@ -46,6 +46,7 @@ struct ServiceStatus {
   std::uint64_t queued_scans = 0;     ///< waiting in all lanes
   std::uint64_t queued_writes = 0;    ///< waiting for the store
   std::uint64_t lost_writes = 0;      ///< refused because the store's queue was full
+  std::uint64_t store_bytes = 0;      ///< on the disk
   Durations judging;                  ///< from a scan's arrival until its alert is on its way
   Durations commits;                  ///< of the store
   std::vector<Degradation> degraded;  ///< empty: all is well

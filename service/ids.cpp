@@ -9,6 +9,11 @@
 
 namespace kidnapwatch::service {
 
+std::uint64_t random_seed() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32U) | device();
+}
+
 std::string Ids::next(core::Stamp now) {
   const std::lock_guard lock(mutex_);
   const auto since_epoch = std::chrono::floor<std::chrono::milliseconds>(now).time_since_epoch();

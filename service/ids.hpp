@@ -11,6 +11,9 @@
 
 namespace kidnapwatch::service {
 
+/// From the system's own entropy.
+[[nodiscard]] std::uint64_t random_seed();
+
 class Ids {
  public:
   explicit Ids(std::uint64_t seed) : random_(seed) {}

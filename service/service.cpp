@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <random>
 
 #include <spdlog/spdlog.h>
 
@@ -28,6 +27,7 @@
 #include "service/stored_history.hpp"
 #include "service/token_file.hpp"
 #include "storage/archive.hpp"
+#include "storage/upkeep.hpp"
 #include "storage/writer.hpp"
 
 namespace kidnapwatch::service {
@@ -62,11 +62,6 @@ storage::RetentionConfig retention(const Settings& settings) {
 }
 
 core::Stamp uptime() { return core::Stamp(std::chrono::steady_clock::now().time_since_epoch()); }
-
-std::uint64_t random_seed() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32U) | device();
-}
 
 MessageKind message_kind(mqtt::TopicKind topic) {
   if (topic == mqtt::TopicKind::odom) return MessageKind::odometry;
@@ -370,6 +365,7 @@ core::ServiceStatus Service::Parts::status() const {
   status.store_healthy = writer_.healthy();
   status.queued_writes = writer_.queued();
   status.lost_writes = writer_.lost();
+  status.store_bytes = storage::size_of(settings_.store_file);
   status.commits = writer_.commits();
   status.degraded = degraded(status);
   return status;

@@ -97,6 +97,16 @@ std::optional<fs::path> prepare_store(const fs::path& file, std::chrono::millise
   return aside;
 }
 
+std::uint64_t size_of(const fs::path& file) {
+  std::uint64_t bytes = 0;
+  for (const char* suffix : {"", "-wal"}) {
+    std::error_code missing;
+    const auto size = fs::file_size(with_suffix(file, suffix), missing);
+    if (!missing) bytes += size;
+  }
+  return bytes;
+}
+
 void backup(const fs::path& file, const fs::path& target) {
   const auto unfinished = with_suffix(target, ".part");
   fs::remove(unfinished);

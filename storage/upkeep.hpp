@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ std::filesystem::path quarantine(const std::filesystem::path& file);
 std::optional<std::filesystem::path> prepare_store(
     const std::filesystem::path& file,
     std::chrono::milliseconds check_limit = std::chrono::seconds(2));
+
+/// Bytes on the disk: of the file, and of what is to be merged into it. 0 if it is not there.
+[[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
 
 /// Writes a consistent copy, replacing `target` once the copy is complete and durable. The store
 /// may be in use. Throws StorageError, std::filesystem::filesystem_error.

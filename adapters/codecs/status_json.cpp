@@ -77,6 +77,7 @@ Json json(const core::ServiceStatus& service) {
           {"queuedScans", service.queued_scans},
           {"queuedWrites", service.queued_writes},
           {"lostWrites", service.lost_writes},
+          {"storeBytes", service.store_bytes},
           {"degraded", json(service.degraded)},
           {"scans", json(service.counts)},
           {"commands", by_name<core::CommandResult>(service.commands)}};

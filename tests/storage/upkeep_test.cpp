@@ -138,5 +138,16 @@ TEST_F(UpkeepTest, ABackupOfAStoreInUseIsWhole) {
   EXPECT_EQ(damage(target, std::chrono::minutes(1)), std::nullopt);
 }
 
+TEST(SizeOf, CountsWhatIsNotMergedYet) {
+  const StoreFolder folder;
+  EXPECT_EQ(size_of(folder.store()), 0U);
+  prepare_store(folder.store());
+  const auto fresh = size_of(folder.store());
+  EXPECT_EQ(fresh, std::filesystem::file_size(folder.store()));
+  Database database(folder.store(), Access::read_write);
+  database.execute("CREATE TABLE more (data BLOB); INSERT INTO more VALUES (zeroblob(100000))");
+  EXPECT_GT(size_of(folder.store()), fresh + 100'000);
+}
+
 }  // namespace
 }  // namespace kidnapwatch::storage

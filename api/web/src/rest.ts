@@ -262,6 +262,7 @@ export interface Service {
   queuedScans: number;
   queuedWrites: number;
   lostWrites: number;
+  storeBytes: number;
   degraded: { name: string; what: string }[];
   scans: Counts;
   commands: Counts;

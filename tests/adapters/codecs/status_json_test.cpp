@@ -53,6 +53,7 @@ TEST(StatusJson, SpellsTheService) {
   service.queued_scans = 3;
   service.queued_writes = 4;
   service.lost_writes = 5;
+  service.store_bytes = 6;
   service.degraded = {{"clock", "the clock jumped"}};
   Json spelled = json(service);
   spelled.erase("scans");
@@ -62,7 +63,8 @@ TEST(StatusJson, SpellsTheService) {
   EXPECT_EQ(text(spelled),
             R"({"version":"0.1.0","startedAt":"1970-01-01T00:00:00.000000000Z","robots":2,)"
             R"("brokerConnected":true,"storeHealthy":false,"queuedScans":3,"queuedWrites":4,)"
-            R"("lostWrites":5,"degraded":[{"name":"clock","what":"the clock jumped"}]})");
+            R"("lostWrites":5,"storeBytes":6,)"
+            R"("degraded":[{"name":"clock","what":"the clock jumped"}]})");
 }
 
 }  // namespace

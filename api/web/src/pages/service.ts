@@ -106,6 +106,11 @@ function warnings({ degraded }: Service): Child {
     h('ul', {}, degraded.map(({ name, what }) => h('li', {}, h('strong', {}, words(name)), ': ', what))));
 }
 
+function megabytes(bytes: number): string {
+  const size = bytes / 1e6;
+  return size < 1000 ? `${number(size)} MB` : `${number(size / 1000)} GB`;
+}
+
 function tiles(status: Service, rate: Counts | undefined): HTMLElement[] {
   const tile = (name: string, value: Child, isBad = false) =>
     h('dl', { class: `tile${isBad ? ' is-bad' : ''}` }, h('dt', {}, name), h('dd', {}, value));
@@ -114,6 +119,7 @@ function tiles(status: Service, rate: Counts | undefined): HTMLElement[] {
     tile('Robots', count(status.robots)),
     tile('Broker', status.brokerConnected ? 'connected' : 'not connected', !status.brokerConnected),
     tile('Store', status.storeHealthy ? 'healthy' : 'not writing', !status.storeHealthy),
+    tile('Store size', megabytes(status.storeBytes)),
     tile('Scans waiting', count(status.queuedScans)),
     tile('Records waiting', count(status.queuedWrites)),
     tile('Records lost', count(status.lostWrites), status.lostWrites > 0),
