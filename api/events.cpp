@@ -16,8 +16,10 @@ constexpr double kRobotsEvery_s = 1.0;
 constexpr double kCheckEvery_s = 1.0;
 constexpr double kSignOfLifeEvery_s = 15.0;  // proxies cut what is silent for longer
 
-std::string event(std::string_view type, std::string_view data) {
-  return "event: " + std::string(type) + "\ndata: " + std::string(data) + "\n\n";
+/// `after`: the number of the last alert that is told by then, for whoever comes back.
+std::string event(std::int64_t after, std::string_view type, std::string_view data) {
+  return "id: " + std::to_string(after) + "\nevent: " + std::string(type) +
+         "\ndata: " + std::string(data) + "\n\n";
 }
 
 class Events final : public Feed {
@@ -35,7 +37,9 @@ class Events final : public Feed {
 
   std::optional<std::string> next() override {
     const double now_s = ports_.live.now_s();
-    std::string text = std::exchange(text_, "") + alerts() + robots(now_s);
+    std::string text = std::exchange(text_, "");
+    text += alerts();
+    text += robots(now_s);
     if (text.empty() && now_s >= spoken_s_ + kSignOfLifeEvery_s) {
       text = ":\n\n";
     }
@@ -62,7 +66,7 @@ class Events final : public Feed {
     for (const auto& alert : ports_.history.alerts(after_, kAlertsAtOnce)) {
       after_ = alert.number;
       if (may_see(alert.robot)) {
-        text += "id: " + std::to_string(alert.number) + "\n" + event("alert", alert.json);
+        text += event(after_, "alert", alert.json);
       }
     }
     return text;
@@ -75,7 +79,7 @@ class Events final : public Feed {
     robots_due_s_ = now_s + kRobotsEvery_s;
     const auto json =
         ports_.live.since(robots_version_, [this](const auto& robot) { return may_see(robot); });
-    return json.empty() ? "" : event("robots", json);
+    return json.empty() ? "" : event(after_, "robots", json);
   }
 
   const Ports ports_;
@@ -117,7 +121,7 @@ Response get_events(const Call& call) {
   const auto after = seen && !is_gone ? *seen : numbers.last;
   std::string first = "retry: 1000\n\n";
   if (is_gone) {
-    first += event("gap", R"({"since":)" + std::to_string(*seen) + "}");
+    first += event(after, "gap", R"({"since":)" + std::to_string(*seen) + "}");
   }
   return {.status = 200,
           .content_type = "text/event-stream",

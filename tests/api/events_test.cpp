@@ -46,7 +46,7 @@ class EventsTest : public ApiTest {
 
 TEST_F(EventsTest, BeginNowUnlessTheClientHasSeenSome) {
   const auto feed = follow("");
-  EXPECT_EQ(beginning(*feed), "retry: 1000\n\nevent: robots\ndata: {\"robots\":[]}\n\n");
+  EXPECT_EQ(beginning(*feed), "retry: 1000\n\nid: 3\nevent: robots\ndata: {\"robots\":[]}\n\n");
   EXPECT_EQ(feed->next(), "");
   tell(4, "even");
   EXPECT_EQ(feed->next(), "id: 4\nevent: alert\ndata: {\"seq\":4}\n\n");
@@ -72,7 +72,7 @@ TEST_F(EventsTest, ThatAreGoneAreTold) {
   history.all_alerts.erase(history.all_alerts.begin(), history.all_alerts.begin() + 2);
   EXPECT_NE(beginning(*follow("1")).find("event: gap\ndata: {\"since\":1}"), std::string::npos);
   EXPECT_EQ(beginning(*follow("2")).find("event: gap"), std::string::npos);
-  EXPECT_NE(beginning(*follow("9")).find("event: gap"), std::string::npos);  // of another store
+  EXPECT_NE(beginning(*follow("9")).find("id: 3\nevent: gap"), std::string::npos);  // another store
   history.all_alerts.clear();
   history.last_alert = 3;
   EXPECT_EQ(beginning(*follow("3")).find("event: gap"), std::string::npos);
@@ -84,7 +84,8 @@ TEST_F(EventsTest, AreThoseOfOneRobotIfWanted) {
   add_robot("odd");
   const auto text = beginning(*follow("0", "?robot=even"));
   EXPECT_EQ(count(text, "event: alert"), 1U);
-  EXPECT_NE(text.find("id: 2\n"), std::string::npos);
+  EXPECT_NE(text.find("id: 2\nevent: alert"), std::string::npos);
+  EXPECT_NE(text.find("id: 3\nevent: robots"), std::string::npos);  // alert 3 is no concern of it
   EXPECT_EQ(text.find(R"("id":"odd")"), std::string::npos);
 }
 

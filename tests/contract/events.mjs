@@ -48,7 +48,7 @@ function check(follower) {
       : event === 'robots' ? misfit(openapi, [...stream, 'schema', 'x-event-data', 'robots'], data)
         : event === 'gap' ? (Number.isInteger(data.since) ? '' : 'no since') : 'is not described';
     if (wrong) throw new Error(`event ${event}: ${wrong}: ${JSON.stringify(data)}`);
-    if ((event === 'alert') !== /^[0-9]+$/.test(id ?? '')) throw new Error(`event ${event} with id ${id}`);
+    if (!/^[0-9]+$/.test(id ?? '')) throw new Error(`event ${event} with id ${id}`);
   }
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 struct Heard {
   long id = 0;
-  Json alert;
+  std::string type = {};
+  Json alert = {};
 };
 
 /// A reader of Server-Sent Events: curl, which comes back with the last id that it saw.
@@ -39,10 +40,9 @@ class Follower {
       Heard next;
       for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("id: ")) next.id = std::stol(line.substr(4));
-        if (line.starts_with("data: ") && next.id > 0) {
-          next.alert = Json::parse(line.substr(6), nullptr, false);
-        }
-        if (line.empty() && next.alert.is_object()) all.push_back(next);
+        if (line.starts_with("event: ")) next.type = line.substr(7);
+        if (line.starts_with("data: ")) next.alert = Json::parse(line.substr(6), nullptr, false);
+        if (line.empty() && next.type == "alert") all.push_back(next);
         if (line.empty()) next = {};
       }
     }
@@ -98,7 +98,7 @@ TEST(Events, AreHeardInOrderAndOnceThroughInterruptions) {
   EXPECT_TRUE(eventually([&] { return follower.alerts().size() >= changes; }));
   std::map<std::string, int> seqs;
   long last = 0;
-  for (const auto& [id, alert] : follower.alerts()) {
+  for (const auto& [id, type, alert] : follower.alerts()) {
     EXPECT_GT(id, last);
     last = id;
     EXPECT_EQ(alert.at("seq"), ++seqs[alert.at("incidentId").get<std::string>()]) << alert;
