@@ -107,9 +107,9 @@ TEST(ServerAbuse, RefusesAHeaderAbove8kB) {
            "\r\n\r\n";
   };
   Client fitting(server.port());
-  fitting.send(request(8 * 1024));
+  fitting.send(request(8'192));
   EXPECT_EQ(fitting.read().status, 200);
-  for (const std::size_t length : {8 * 1024 + 1, 9'000, 100'000, 5'000'000}) {
+  for (const std::size_t length : {8'193, 9'000, 100'000, 5'000'000}) {
     Client client(server.port());
     client.send(request(length));
     EXPECT_EQ(client.read().status, 431) << length;
@@ -131,9 +131,9 @@ TEST(ServerAbuse, RefusesManyHeadersToo) {
 TEST(ServerAbuse, RefusesABodyAbove64kBButTakesThatMuch) {
   const Server server(patient(), ok);
   Client client(server.port());
-  client.send(put(64 * 1024) + std::string(64 * 1024, 'x'));
+  client.send(put(65'536) + std::string(65'536, 'x'));
   EXPECT_EQ(client.read().status, 200);
-  client.send(put(64 * 1024 + 1) + std::string(64 * 1024 + 1, 'x'));
+  client.send(put(65'537) + std::string(65'537, 'x'));
   EXPECT_EQ(client.read().status, 413);
   EXPECT_EQ(client.read_to_end(), "");
 }
@@ -157,8 +157,7 @@ TEST(ServerAbuse, RefusesWhatIsNotHttp) {
         "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
         "PUT / HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
         "PUT / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\nab",
-        "PUT / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nTransfer-Encoding: "
-        "chunked\r\n\r\n0\r\n\r\n",
+        "PUT / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n",
         "PUT / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
         "PUT / HTTP/1.1\r\nHost: a\r\nExpect: a miracle\r\nContent-Length: 1\r\n\r\nx"}) {
     Client client(server.port());

@@ -159,8 +159,10 @@ TEST(Server, ServesManyClientsOnSeveralThreads) {
   auto config = any_port();
   config.threads = 4;
   const Server server(config, echo);
+  constexpr int kClients = 8;
   std::vector<std::jthread> clients;
-  for (int c = 0; c < 8; ++c) {
+  clients.reserve(kClients);
+  for (int c = 0; c < kClients; ++c) {
     clients.emplace_back([&, c] {
       Client client(server.port());
       for (int i = 0; i < 50; ++i) {

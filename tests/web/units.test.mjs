@@ -65,8 +65,16 @@ test('any stretch of time is at most 800 buckets, and two minutes are every scan
 
 test('a gap in the scores is a gap in the line', () => {
   const spread = { min: 1, max: 3, mean: 2 };
-  const at = (minute) => ({ time: `2026-01-31T12:0${minute}:00Z`, scores: 5, motion: spread, state: 'normal' });
+  const at = (minute) => ({ time: `2026-01-31T12:0${minute}:00Z`, seconds: 60, scores: 5, motion: spread, state: 'normal' });
   const { max, state } = fromBuckets([at(0), at(1), at(5)], 'motion', 60);
   assert.deepEqual(max, [3, 3, null, 3]);
   assert.deepEqual(state, ['normal', 'normal', null, 'normal']);
+});
+
+test('what is left of old scores is coarser, and said to be', () => {
+  const bucket = (time, seconds) => ({ time, seconds, scores: 5, score: { min: 1, max: 3, mean: 2 }, state: 'normal' });
+  const { max, resolution } = fromBuckets([bucket('2026-01-31T11:00:00Z', 3600), bucket('2026-01-31T12:00:00Z', 60),
+    bucket('2026-01-31T12:01:00Z', 60), bucket('2026-01-31T12:30:00Z', 60)], 'qs2ddtw', 60);
+  assert.equal(resolution, 3600);
+  assert.deepEqual(max, [3, 3, 3, null, 3]);
 });

@@ -55,6 +55,7 @@ export interface Spread {
 
 export interface ScoreBucket {
   time: string;
+  seconds: number;
   scores: number;
   score?: Spread;
   scorePerBeam?: Spread;

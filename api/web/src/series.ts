@@ -7,7 +7,7 @@ export type ScoreKind = 'motion' | 'qs2ddtw';
 /** Columns of equal length, by time; null where there is no value. */
 export interface Series {
   kind: ScoreKind;
-  resolution: number; // seconds of each; 0: every scan
+  resolution: number; // seconds of the longest; 0: every scan
   time: number[]; // seconds since 1970, by the robot's clock
   min: (number | null)[];
   max: (number | null)[];
@@ -27,16 +27,20 @@ export function resolutionFor(seconds: number): number {
   return RESOLUTIONS.find((one) => seconds / one <= MOST_POINTS) ?? 86400;
 }
 
-/** From and to in milliseconds since 1970, by the robot's clock. */
+/**
+ * From and to in milliseconds since 1970, by the robot's clock. Where single scans are not kept any
+ * more, what is left of them: minutes, or hours.
+ */
 export async function loadSeries(robot: string, kind: ScoreKind, from: number, to: number,
   signal?: AbortSignal): Promise<Series> {
   const resolution = resolutionFor((to - from) / 1000);
   const range = { from: new Date(from).toISOString(), to: new Date(to).toISOString(), limit: 1000 };
   if (resolution === 0) {
     const path = at('/api/v1/robots', robot, 'scores', range);
-    return fromScores(await getAll<Score>(path, 'scores', 5000, signal), kind);
+    const scores = await getAll<Score>(path, 'scores', 5000, signal);
+    if (scores.length > 0) return fromScores(scores, kind);
   }
-  const path = at('/api/v1/robots', robot, 'scores', { ...range, resolution });
+  const path = at('/api/v1/robots', robot, 'scores', { ...range, resolution: resolution || 1 });
   return fromBuckets(await getAll<ScoreBucket>(path, 'buckets', 5000, signal), kind, resolution);
 }
 
@@ -44,18 +48,20 @@ export function fromScores(scores: Score[], kind: ScoreKind): Series {
   const series = none(kind, 0);
   for (const one of scores) {
     const value = kind === 'motion' ? one.motion?.score : one.score;
-    add(series, one.time, value, value, value, one.motion?.confirmed,
+    add(series, one.time, 0, value, value, value, one.motion?.confirmed,
       kind === 'motion' ? one.motion?.threshold : one.threshold, one.state);
   }
   return series;
 }
 
 export function fromBuckets(buckets: ScoreBucket[], kind: ScoreKind, resolution: number): Series {
-  const series = none(kind, resolution);
+  const series = none(kind, Math.max(resolution, ...buckets.map((one) => one.seconds)));
+  let before = 0; // seconds of the last one
   for (const one of buckets) {
     const spread = kind === 'motion' ? one.motion : one.score;
-    add(series, one.time, spread?.min, spread?.max, spread?.mean, one.motionConfirmed?.max,
+    add(series, one.time, before, spread?.min, spread?.max, spread?.mean, one.motionConfirmed?.max,
       kind === 'motion' ? one.motionThreshold : one.threshold, one.state);
+    before = one.seconds;
   }
   return series;
 }
@@ -64,12 +70,14 @@ function none(kind: ScoreKind, resolution: number): Series {
   return { kind, resolution, time: [], min: [], max: [], mean: [], confirmed: [], threshold: [], state: [] };
 }
 
-function add(series: Series, iso: string, min: number | undefined, max: number | undefined, mean: number | undefined,
-  confirmed: number | undefined, threshold: number | undefined, state: RobotState | null): void {
+/** `before`: seconds of the bucket before. */
+function add(series: Series, iso: string, before: number, min: number | undefined, max: number | undefined,
+  mean: number | undefined, confirmed: number | undefined, threshold: number | undefined,
+  state: RobotState | null): void {
   const time = Date.parse(iso) / 1000;
   const last = series.time.at(-1);
-  if (last !== undefined && time - last > Math.max(5, 3 * series.resolution)) {
-    push(series, last + (series.resolution || 0.001), null, null, null, null, null, null); // a gap is seen as one
+  if (last !== undefined && time - last > Math.max(5, 3 * before)) {
+    push(series, last + (before || 0.001), null, null, null, null, null, null); // a gap is seen as one
   }
   push(series, time, min ?? null, max ?? null, mean ?? null,
     series.kind === 'motion' ? confirmed ?? null : null, threshold ?? null, state);
