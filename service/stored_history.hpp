@@ -89,10 +89,11 @@ class StoredHistory final : public api::History {
   }
 
  private:
-  static std::vector<api::NumberedAlert> numbered(std::vector<storage::StoredAlert> stored) {
+  static std::vector<api::NumberedAlert> numbered(const std::vector<storage::StoredAlert>& stored) {
     std::vector<api::NumberedAlert> alerts;
-    for (auto& [number, robot, payload] : stored) {
-      alerts.push_back({number, std::move(robot), std::move(payload)});
+    alerts.reserve(stored.size());
+    for (const auto& [number, robot, payload] : stored) {
+      alerts.push_back({number, robot, payload});
     }
     return alerts;
   }
